@@ -1,0 +1,110 @@
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <thread>
+
+#include "input_error.h"
+
+namespace rubble::demo {
+namespace {
+
+constexpr int kLargestPicture = 8192;  // [pixels]
+constexpr int kMostThreads = 256;
+
+/// What CLI11 fills in before it is checked.
+struct Raw {
+  std::string size = "1280x720";
+  std::vector<std::string> sets;
+  std::string frames, seed;
+  bool noRender = false;
+};
+
+int defaultThreads() {
+  constexpr unsigned kEnough = 8;  // the dust grid gains little beyond
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kEnough));
+}
+
+void parseSize(const std::string& text, int& width, int& height) {
+  const auto isSide = [](int side) { return side >= 16 && side <= kLargestPicture; };
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, width);
+  const bool hasCross = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+  const auto second = hasCross ? std::from_chars(first.ptr + 1, end, height) : first;
+  if (!hasCross || second.ec != std::errc() || second.ptr != end || !isSide(width) || !isSide(height)) {
+    throw InputError("--size", text, "is not a size, must be WIDTHxHEIGHT with 16 to 8192 pixels each");
+  }
+}
+
+void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
+  app.add_option("SCENE", line.scene, "name in demo/scenes, or path of a JSON file")->required();
+  app.add_option("--set", raw.sets, "key.path=value: change the scene; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--frames", raw.frames, "number of frames");
+  app.add_option("--seed", raw.seed, "seed of packing and debris");
+  app.add_option("--threads", line.run.threads, "of the dust grid")->check(CLI::Range(1, kMostThreads));
+}
+
+void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
+  CLI::App* run = app.add_subcommand("run", "simulate a scene, write pictures and statistics");
+  addSceneOptions(*run, line, raw);
+  run->add_option("--out", line.run.out, "folder of the results, default out/SCENE");
+  run->add_option("--stats", line.run.stats, "one JSON object a frame, default OUT/stats.jsonl");
+  run->add_option("--events", line.run.events, "one JSON object an event");
+  run->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures, default 1280x720");
+  run->add_flag("--no-render", raw.noRender, "no pictures and no OpenGL");
+
+  CLI::App* view = app.add_subcommand("view", "simulate a scene in a window");
+  addSceneOptions(*view, line, raw);
+  view->add_option("--size", raw.size, "WIDTHxHEIGHT of the window, default 1280x720");
+
+  CLI::App* info = app.add_subcommand("info", "what a scene or a .rubble-asset file holds and needs");
+  addSceneOptions(*info, line, raw);
+
+  CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown and CSV");
+  addSceneOptions(*report, line, raw);
+  report->add_option("--out", line.run.out, "folder of the CSV, default out/report");
+}
+
+CommandLine::Command command(const CLI::App& app) {
+  if (app.got_subcommand("view")) return CommandLine::Command::View;
+  if (app.got_subcommand("info")) return CommandLine::Command::Info;
+  if (app.got_subcommand("report")) return CommandLine::Command::Report;
+  return CommandLine::Command::Run;
+}
+
+}  // namespace
+
+CommandLine parseCommandLine(int argc, char** argv) {
+  CommandLine line;
+  Raw raw;
+  line.run.threads = defaultThreads();
+  CLI::App app("Rubble: destruction for Bullet", "rubble");
+  app.set_version_flag("--version", RUBBLE_VERSION);
+  app.require_subcommand(1);
+  addCommands(app, line, raw);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw HelpWanted{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    throw HelpWanted{std::string(version.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw InputError("command line", "", std::string(error.what()) + ", see rubble --help");
+  }
+  line.command = command(app);
+  for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
+  if (!raw.frames.empty()) line.overrides.push_back({"frames", raw.frames, "--frames"});
+  if (!raw.seed.empty()) line.overrides.push_back({"seed", raw.seed, "--seed"});
+  line.run.render = !raw.noRender;
+  parseSize(raw.size, line.run.width, line.run.height);
+  line.view.width = line.run.width;
+  line.view.height = line.run.height;
+  line.view.threads = line.run.threads;
+  line.view.closeAtEnd = !raw.frames.empty();
+  return line;
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,30 @@
+// The arguments of the program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run.h"
+#include "scene.h"
+#include "view.h"
+
+namespace rubble::demo {
+
+struct CommandLine {
+  enum class Command { Run, View, Info, Report };
+  Command command = Command::Run;
+  std::string scene;
+  std::vector<Override> overrides;
+  RunOptions run;
+  ViewOptions view;
+};
+
+/// The text of --help or --version was asked for: ends the program with exit code 0.
+struct HelpWanted {
+  std::string text;
+};
+
+/// Throws InputError, or HelpWanted.
+CommandLine parseCommandLine(int argc, char** argv);
+
+}  // namespace rubble::demo

@@ -1,0 +1,22 @@
+#include "console.h"
+
+#include <iostream>
+
+#include "progress.h"
+
+namespace rubble::demo {
+
+LogFunction consoleLog() {
+  return [](LogLevel level, const std::string& line) {
+    if (level == LogLevel::Warning) std::cerr << "rubble: warning: " << line << '\n';
+  };
+}
+
+Assets cookWithProgress(const Scene& scene) {
+  Progress progress(scene.name);
+  return cookObjects(
+      scene, [&](double share, const char* stage) { progress.show(share, std::string("cooking, ") + stage); },
+      consoleLog());
+}
+
+}  // namespace rubble::demo

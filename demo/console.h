@@ -1,0 +1,14 @@
+// What the library tells, for a person at a console: its log and the progress of cooking.
+#pragma once
+
+#include "world.h"
+
+namespace rubble::demo {
+
+/// Warnings to stderr; information is left out.
+LogFunction consoleLog();
+
+/// cookObjects with a line of progress on stderr.
+Assets cookWithProgress(const Scene& scene);
+
+}  // namespace rubble::demo

@@ -1,0 +1,30 @@
+// One frame: the world, then what happened in it, then the dust, then the picture. Parts that are absent cost
+// nothing.
+#pragma once
+
+#include "dust_setup.h"
+#include "recorder.h"
+#include "rubble/render.h"
+#include "stage.h"
+#include "world.h"
+
+namespace rubble::demo {
+
+class PictureWriter;
+
+/// What takes part in a frame; null where the run leaves it out.
+struct FrameParts {
+  World* world = nullptr;
+  Recorder* recorder = nullptr;
+  DustGrid* dust = nullptr;
+  Stage* stage = nullptr;
+  Framebuffer* framebuffer = nullptr;  // pictures are drawn into it and saved; a window draws by itself
+  PictureWriter* pictures = nullptr;
+  Camera camera = {};
+  std::vector<DustObstacle> obstacles = {};  // kept from frame to frame for its memory
+};
+
+/// Simulates, draws, saves and records frame number `frame`. Throws RunStopped.
+void runFrame(FrameParts& parts, int frame);
+
+}  // namespace rubble::demo

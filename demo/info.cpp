@@ -1,0 +1,95 @@
+#include "info.h"
+
+#include <malloc.h>
+
+#include <cmath>
+#include <iomanip>
+
+#include "console.h"
+#include "dust_setup.h"
+#include "input_error.h"
+#include "world.h"
+
+namespace rubble::demo {
+namespace {
+
+/// Memory in use by the program [MB], as its allocator counts it.
+double memoryInUse() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / 1e6;
+}
+
+std::ostream& row(std::ostream& out, const std::string& name) {
+  constexpr int kNameWidth = 22;  // of the longest name
+  return out << "  " << std::left << std::setw(kNameWidth) << name;
+}
+
+void describe(const Asset& asset, std::ostream& out) {
+  row(out, "elements") << asset.elementCount() << ", radius " << asset.radius << " m\n";
+  row(out, "springs") << asset.springs.size() << " and " << asset.anchors.size() << " anchors\n";
+  row(out, "volume") << asset.volume() << " m^3, spacing " << asset.spacing() << " m\n";
+  row(out, "cell meshes") << asset.triangles.size() << " triangles\n";
+}
+
+void describeNeeds(const Scene& scene, std::ostream& out) {
+  row(out, "OpenGL") << "only for pictures; none with --no-render\n";
+  if (scene.dust) {
+    const double before = memoryInUse();
+    const auto grid = makeDust(scene, Renderer3D::None, 1);
+    row(out, "dust") << scene.dust->resolution << "^3 cells, " << memoryInUse() - before
+                     << " MB on the CPU\n";
+  } else {
+    row(out, "dust") << "none: no grid, no thread\n";
+  }
+  if (scene.debris) {
+    row(out, "debris") << "up to " << scene.debris->budget << " pieces\n";
+  } else {
+    row(out, "debris") << "none\n";
+  }
+}
+
+}  // namespace
+
+void describeScene(const Scene& scene, std::ostream& out) {
+  const double before = memoryInUse();
+  const Assets assets = cookWithProgress(scene);
+  const double cooked = memoryInUse();
+  World world(scene, assets, consoleLog());
+  const double built = memoryInUse();
+
+  out << scene.file << '\n';
+  for (std::size_t i = 0; i < assets.size(); ++i) {
+    out << "object " << i << ", " << scene.objects[i].material.name << '\n';
+    describe(*assets[i], out);
+    row(out, "mass") << world.destruction().bodies()[i]->elementMass() << " kg\n";
+  }
+  out << "the run\n";
+  const double frame = 1 / scene.fps;
+  const double substep = world.destruction().stableSubstep() * scene.substepSafety;
+  row(out, "bodies of Bullet") << scene.impactors.size() << " moving, " << scene.statics.size()
+                               << " static\n";
+  row(out, "frames") << scene.frames << " of " << frame << " s, Bullet at " << scene.bulletRate << " Hz\n";
+  if (!assets.empty()) {
+    row(out, "stable substep") << world.destruction().stableSubstep() << " s, about "
+                               << std::ceil(frame / substep) << " substeps a frame of "
+                               << scene.maxSubstepsPerFrame << " allowed\n";
+  }
+  row(out, "memory") << "assets " << cooked - before << " MB, world " << built - cooked << " MB\n";
+  describeNeeds(scene, out);
+}
+
+bool isAssetFile(const std::string& nameOrPath) {
+  return std::filesystem::path(nameOrPath).extension() == ".rubble-asset";
+}
+
+void describeAsset(const std::filesystem::path& file, std::ostream& out) {
+  try {
+    const Asset asset = load(file);
+    out << file.string() << '\n';
+    describe(asset, out);
+  } catch (const Error& error) {
+    throw InputError(error.what());
+  }
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,118 @@
+#include "keys.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace rubble::demo {
+namespace {
+
+template <class Float>
+std::string shortest(Float value) {
+  constexpr Float kAllDigits = Float(1e9);  // whole numbers below are not written as 1e+05
+  if (value == std::floor(value) && std::abs(value) < kAllDigits)
+    return std::to_string(static_cast<long>(value));
+  std::array<char, 40> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return std::string(text.data(), end);
+}
+
+std::string kind(const Json& value) {
+  return std::string("is ") + shown(value);
+}
+
+}  // namespace
+
+std::string Place::source() const {
+  std::string prefix = path;
+  while (true) {
+    if (const auto found = origins->find(prefix); found != origins->end()) return found->second;
+    if (prefix.empty()) return "scene";
+    const auto dot = prefix.rfind('.');
+    prefix = dot == std::string::npos ? "" : prefix.substr(0, dot);
+  }
+}
+
+void Place::refuse(const std::string& wrong, const std::string& allowed) const {
+  throw InputError(source(), path, wrong + ", " + allowed);
+}
+
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 60;  // characters of a value that still help to find it
+  const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+std::string shown(double value) {
+  return shortest(value);
+}
+std::string shown(float value) {
+  return shortest(value);
+}
+
+std::string Range::text() const {
+  const bool unlimited = max >= 1e300;
+  if (!minAllowed) return "> " + shown(min) + (unlimited ? "" : " and <= " + shown(max));
+  return unlimited ? ">= " + shown(min) : shown(min) + " to " + shown(max);
+}
+
+// Written so that NaN, which compares false with everything, is refused.
+bool Range::holds(double value) const {
+  return (minAllowed ? value >= min : value > min) && value <= max && std::isfinite(value);
+}
+
+Range above(double min, double max) {
+  return {min, max, false};
+}
+Range between(double min, double max) {
+  return {min, max, true};
+}
+
+double readNumber(const Json& value, const Range& range, const Place& place) {
+  if (!value.is_number()) place.refuse(kind(value), "must be a number " + range.text());
+  const double number = value.get<double>();
+  if (!range.holds(number)) place.refuse(kind(value), "must be " + range.text());
+  return number;
+}
+
+std::uint64_t readWhole(const Json& value, const Range& range, const Place& place) {
+  const std::string allowed = "must be a whole number " + range.text();
+  if (!value.is_number()) place.refuse(kind(value), allowed);
+  const double number = value.get<double>();
+  if (!range.holds(number) || std::floor(number) != number) place.refuse(kind(value), allowed);
+  return value.is_number_integer() ? value.get<std::uint64_t>() : static_cast<std::uint64_t>(number);
+}
+
+bool readFlag(const Json& value, const Place& place) {
+  if (!value.is_boolean()) place.refuse(kind(value), "must be true or false");
+  return value.get<bool>();
+}
+
+std::string readWord(const Json& value, const std::vector<std::string>& words, const Place& place) {
+  std::string allowed;
+  for (const std::string& word : words) {
+    if (value.is_string() && value.get_ref<const std::string&>() == word) return word;
+    allowed += (allowed.empty() ? "" : ", ") + word;
+  }
+  place.refuse(kind(value), "must be one of: " + allowed);
+}
+
+Eigen::Vector3d readVector(const Json& value, const Range& range, const Place& place) {
+  if (!value.is_array() || value.size() != 3) place.refuse(kind(value), "must be a list of three numbers");
+  Eigen::Vector3d vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    vector[axis] =
+        readNumber(value[static_cast<std::size_t>(axis)], range, place.child(std::to_string(axis)));
+  }
+  return vector;
+}
+
+void requireObject(const Json& value, const Place& place) {
+  if (!value.is_object()) place.refuse(kind(value), "must be an object {...}");
+}
+
+void requireList(const Json& value, const Place& place) {
+  if (!value.is_array()) place.refuse(kind(value), "must be a list [...]");
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,136 @@
+// Tables of keys: one row for each key of a JSON object says its name, unit, limits, meaning and where the
+// value goes. The same rows read a scene, refuse what is wrong in it and write the documentation.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "input_error.h"
+
+namespace rubble::demo {
+
+using Json = nlohmann::json;
+
+/// Which source (a file or `--set`) each dotted path came from; the longest matching prefix counts.
+using Origins = std::map<std::string, std::string>;
+
+/// Where a value stands.
+struct Place {
+  const Origins* origins;
+  std::string path;
+
+  Place child(const std::string& name) const { return {origins, path.empty() ? name : path + "." + name}; }
+  std::string source() const;
+  [[noreturn]] void refuse(const std::string& wrong, const std::string& allowed) const;
+};
+
+/// The value as an error message shows it: one line, not too long.
+std::string shown(const Json& value);
+/// Shortest text that reads back as the same number.
+std::string shown(double value);
+std::string shown(float value);
+
+/// Limits of a number.
+struct Range {
+  double min, max;
+  bool minAllowed = true;
+
+  std::string text() const;
+  bool holds(double value) const;
+};
+Range above(double min, double max);
+Range between(double min, double max);
+
+double readNumber(const Json& value, const Range& range, const Place& place);
+std::uint64_t readWhole(const Json& value, const Range& range, const Place& place);
+bool readFlag(const Json& value, const Place& place);
+std::string readWord(const Json& value, const std::vector<std::string>& words, const Place& place);
+Eigen::Vector3d readVector(const Json& value, const Range& range, const Place& place);
+void requireObject(const Json& value, const Place& place);
+void requireList(const Json& value, const Place& place);
+
+/// A row of the documentation.
+struct KeyLine {
+  std::string path, type, unit, standard, meaning;
+};
+
+template <class T>
+struct Key {
+  std::string name, type, unit, meaning;
+  std::function<void(T&, const Json&, const Place&)> read;
+  std::function<std::string(const T&)> standard;    // the default, as documentation shows it
+  std::function<bool(const T&)> applies = nullptr;  // looked at when the rows above it have been read
+  std::string appliesTo = {};
+  bool isRequired = false;
+  std::function<void(std::vector<KeyLine>&, const std::string&)> describeNested = nullptr;
+  std::function<std::string(const T&)> limit =
+      nullptr;  // what is allowed when the value does not fit the others, or ""
+
+  Key required() && {
+    isRequired = true;
+    return std::move(*this);
+  }
+  Key only(std::string what, std::function<bool(const T&)> when) && {
+    appliesTo = std::move(what);
+    applies = std::move(when);
+    return std::move(*this);
+  }
+  Key must(std::function<std::string(const T&)> allowed) && {
+    limit = std::move(allowed);
+    return std::move(*this);
+  }
+};
+
+template <class T>
+using Table = std::vector<Key<T>>;
+
+template <class T>
+std::string acceptedKeys(const Table<T>& table, const T& target) {
+  std::string text;
+  for (const Key<T>& key : table)
+    if (!key.applies || key.applies(target)) text += (text.empty() ? "" : ", ") + key.name;
+  return text;
+}
+
+/// Reads one object row by row, in the table's order.
+template <class T>
+void readObject(const Table<T>& table, T& target, const Json& json, const Place& place) {
+  requireObject(json, place);
+  std::size_t found = 0;
+  for (const Key<T>& key : table) {
+    if (key.applies && !key.applies(target)) continue;
+    const auto entry = json.find(key.name);
+    if (entry != json.end()) {
+      key.read(target, *entry, place.child(key.name));
+      ++found;
+    } else if (key.isRequired) {
+      place.child(key.name).refuse("is missing", "must be given (" + key.type + ")");
+    }
+    if (const std::string allowed = key.limit ? key.limit(target) : ""; !allowed.empty())
+      place.child(key.name).refuse("is " + key.standard(target), allowed);
+  }
+  if (found == json.size()) return;
+  for (const auto& [name, value] : json.items()) {
+    bool known = false;
+    for (const Key<T>& key : table) known |= key.name == name && (!key.applies || key.applies(target));
+    if (!known) place.child(name).refuse("unknown key", "allowed here: " + acceptedKeys(table, target));
+  }
+}
+
+template <class T>
+void describe(const Table<T>& table, std::vector<KeyLine>& lines, const std::string& prefix) {
+  const T standard{};
+  for (const Key<T>& key : table) {
+    const std::string meaning = key.meaning + (key.appliesTo.empty() ? "" : " (" + key.appliesTo + " only)");
+    lines.push_back({prefix + key.name, key.type, key.unit,
+                     key.isRequired ? "required" : key.standard(standard), meaning});
+    if (key.describeNested) key.describeNested(lines, prefix + key.name);
+  }
+}
+
+}  // namespace rubble::demo

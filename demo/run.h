@@ -1,0 +1,26 @@
+// `rubble run`: a scene from its first frame to its last, with pictures, statistics and events.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+
+#include "recorder.h"
+#include "scene.h"
+
+namespace rubble::demo {
+
+struct RunOptions {
+  std::filesystem::path out = {};     ///< folder of pictures and statistics; empty: out/SCENE
+  std::filesystem::path stats = {};   ///< empty: stats.jsonl in `out`
+  std::filesystem::path events = {};  ///< empty: not written
+  bool render = true;                 ///< false: no GL context is made and no GL library loaded
+  int width = 1280, height = 720;
+  int threads = 1;
+};
+
+/// Runs the scene and tells on `report` what happened. Throws InputError before anything is written,
+/// RunStopped later.
+Summary runScene(const Scene& scene, const RunOptions& options, std::ostream& report);
+
+}  // namespace rubble::demo

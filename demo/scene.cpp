@@ -1,0 +1,198 @@
+#include "scene.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "scene_keys.h"
+
+namespace rubble::demo {
+namespace {
+
+constexpr int kDeepestExtends = 8;                  // a chain of `extends` longer than this is a circle
+constexpr int kDeepestNesting = 32;                 // [levels]; no scene is deeper
+constexpr std::uintmax_t kLargestFile = 16u << 20;  // [bytes]; no scene is larger, a wrong file may be
+
+/// The merged scene and where its values came from.
+struct Document {
+  Json json = Json::object();
+  Origins origins;
+};
+
+std::string joined(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+/// The entry `part` of an object or list, made when it is new (a list grows by one at most).
+Json& entry(Json& parent, const std::string& part, const Place& place) {
+  if (parent.is_object() || parent.is_null()) return parent[part];
+  if (!parent.is_array()) place.refuse("is " + shown(parent), "has no keys of its own");
+  const std::size_t count = parent.size();
+  for (std::size_t i = 0; i <= count; ++i)
+    if (part == std::to_string(i)) return i == count ? parent.emplace_back(nullptr) : parent[i];
+  place.child(part).refuse("there is no such entry", "allowed: 0 to " + std::to_string(count));
+}
+
+/// Objects merge, null takes a key away, everything else replaces (RFC 7386).
+void merge(Document& document, Json& target, const Json& value, const std::string& path,
+           const std::string& source) {
+  if (!value.is_object() || !target.is_object()) document.origins[path] = source;
+  if (!value.is_object()) {
+    target = value;
+    return;
+  }
+  if (!target.is_object()) target = Json::object();
+  for (const auto& [name, child] : value.items()) {
+    if (child.is_null()) {
+      target.erase(name);
+    } else {
+      merge(document, target[name], child, joined(path, name), source);
+    }
+  }
+}
+
+/// Merges `value` at a dotted path.
+void mergeAt(Document& document, const std::string& path, const Json& value, const std::string& source) {
+  document.origins[path] = source;
+  Json* target = &document.json;
+  Json* parent = nullptr;
+  const Origins origins = {{"", source}};  // errors on the way are this source's
+  std::string part, last, done;
+  std::istringstream parts(path + ".");
+  while (std::getline(parts, part, '.')) {
+    parent = target;
+    target = &entry(*target, part, {&origins, done});
+    done = joined(done, part);
+    last = part;
+  }
+  if (value.is_null() && parent->is_object()) {
+    parent->erase(last);
+  } else {
+    merge(document, *target, value, path, source);
+  }
+}
+
+std::string readFile(const std::filesystem::path& file, const std::string& name) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError(name, "", "there is no such file, must be a scene file or one of: " + sceneNames());
+  }
+  if (std::filesystem::file_size(file, error) > kLargestFile)
+    throw InputError(name, "", "is larger than 16 MB, must be a scene");
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(name, "", "cannot be read, must be a readable file");
+  return text.str();
+}
+
+/// "line 3, column 5" of a byte offset.
+std::string lineAndColumn(const std::string& text, std::size_t byte) {
+  const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const auto lineStart = before.rfind('\n');
+  const std::size_t column = before.size() - (lineStart == std::string::npos ? 0 : lineStart + 1) + 1;
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+/// Refuses deep nesting: a hostile file must not use up the stack of what reads it.
+bool limitDepth(int depth, Json::parse_event_t, Json&) {
+  if (depth > kDeepestNesting) throw std::length_error("nested too deeply");
+  return true;
+}
+
+Json parse(const std::string& text, const std::string& name) {
+  try {
+    return Json::parse(text, limitDepth);
+  } catch (const Json::parse_error& error) {
+    throw InputError(name, lineAndColumn(text, error.byte), "is not JSON here, must be an object {...}");
+  } catch (const Json::exception&) {
+    throw InputError(name, "", "holds a number out of range, must be within +-1.8e308");
+  } catch (const std::length_error& error) {
+    throw InputError(name, "", std::string(error.what()) + ", must be at most 32 levels");
+  }
+}
+
+/// JSON, or a bare word.
+Json parseValue(const Override& change) {
+  try {
+    return Json::parse(change.value, limitDepth);
+  } catch (const std::exception&) {
+    return change.value;
+  }
+}
+
+std::filesystem::path resolve(const std::string& nameOrPath, const std::filesystem::path& besides) {
+  const bool isName = nameOrPath.find('/') == std::string::npos && !nameOrPath.ends_with(".json");
+  if (!isName) return nameOrPath;
+  const std::filesystem::path neighbour = besides / (nameOrPath + ".json");
+  if (!besides.empty() && std::filesystem::exists(neighbour)) return neighbour;
+  return sceneFolder() / (nameOrPath + ".json");
+}
+
+void mergeFile(Document& document, const std::filesystem::path& file, int depth) {
+  const std::string name = file.string();
+  Json json = parse(readFile(file, name), name);
+  if (!json.is_object()) throw InputError(name, "", "is " + shown(json) + ", must be an object {...}");
+  if (const auto base = json.find("extends"); base != json.end()) {
+    if (!base->is_string())
+      throw InputError(name, "extends", "is " + shown(*base) + ", must be the name of a scene");
+    if (depth >= kDeepestExtends)
+      throw InputError(name, "extends", "goes in a circle, must end at a whole scene");
+    mergeFile(document, resolve(base->get<std::string>(), file.parent_path()), depth + 1);
+    json.erase("extends");
+  }
+  document.origins[""] = name;
+  for (const auto& [path, value] : json.items()) mergeAt(document, path, value, name);
+}
+
+std::filesystem::path dataFolder(const char* folder, const char* builtIn) {
+  if (const char* data = std::getenv("RUBBLE_DATA")) return std::filesystem::path(data) / folder;
+  return builtIn;
+}
+
+}  // namespace
+
+std::filesystem::path sceneFolder() {
+  return dataFolder("scenes", RUBBLE_SCENE_FOLDER);
+}
+std::filesystem::path shaderFolder() {
+  return dataFolder("shaders", RUBBLE_SHADER_FOLDER);
+}
+
+std::string sceneNames() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(sceneFolder(), error))
+    if (file.path().extension() == ".json") names.push_back(file.path().stem().string());
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+Override parseOverride(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError("--set", text, "is not a setting, must be key.path=value");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& overrides) {
+  const std::filesystem::path file = resolve(nameOrPath, {});
+  Document document;
+  mergeFile(document, file, 0);
+  for (const Override& change : overrides) {
+    mergeAt(document, change.path, parseValue(change), change.source);
+  }
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.file = file.string();
+  readObject(sceneKeys(), scene, document.json, {&document.origins, ""});
+  return scene;
+}
+
+}  // namespace rubble::demo

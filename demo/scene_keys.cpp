@@ -1,0 +1,334 @@
+// One row a key; a new key is one row here and a field in scene.h. Rows are read in this order, so that a row
+// may look at what those above it have set.
+#include "scene_keys.h"
+
+#include "key_rows.h"
+#include "rubble/material.h"
+
+namespace rubble::demo {
+namespace {
+
+// Limits that no sensible scene reaches; they keep hostile numbers from turning into overflow later.
+constexpr double kFarthest = 1e5;  // [m]: further away a float holds no millimetres
+constexpr double kFastest = 1e4;   // [m/s, rad/s]
+constexpr double kHuge = 1e300;    // no limit but finiteness
+
+const Range kPosition = between(-kFarthest, kFarthest);
+const Range kLength = above(0, kFarthest);
+const Range kVelocity = between(-kFastest, kFastest);
+const Range kShare = between(0, 1);
+
+template <class T>
+Table<T> withPlacement(Table<T> table) {
+  table.push_back(vector<T>("position", &T::position, kPosition, "m", "where its centre is at the start"));
+  table.push_back(vector<T>("rotation_degrees", &T::rotationDegrees, between(-3600, 3600), "degrees",
+                            "turned about this axis by its length"));
+  return table;
+}
+
+template <class T>
+Table<T> withMotion(Table<T> table) {
+  table.push_back(vector<T>("velocity", &T::velocity, kVelocity, "m/s", "at the start"));
+  table.push_back(vector<T>("spin", &T::spin, kVelocity, "rad/s", "axis times rate at the start"));
+  return table;
+}
+
+Key<Material> materialPreset() {
+  std::string names;
+  for (const std::string& name : materialNames()) names += (names.empty() ? "" : ", ") + name;
+  return {"preset",
+          names,
+          "",
+          "named set of constants; the keys below change single ones",
+          [](Material& target, const Json& json, const Place& place) {
+            target = material(readWord(json, materialNames(), place));
+          },
+          [](const Material& target) { return target.name; }};
+}
+
+const Table<Material>& materialKeys() {
+  static const Table<Material> table = {
+      materialPreset(),
+      number<Material>("density", &Material::density, above(0, 1e5), "kg/m^3", "of the solid"),
+      number<Material>("youngs_modulus", &Material::youngsModulus, above(0, 1e13), "Pa",
+                       "E of the pore springs"),
+      number<Material>("tensile_strength", &Material::tensileStrength, between(0, 1e13), "Pa", "f_t"),
+      number<Material>("compressive_strength", &Material::compressiveStrength, between(0, 1e13), "Pa", "f_c")
+          .must([](const Material& m) {
+            return m.compressiveStrength >= m.tensileStrength
+                       ? std::string()
+                       : "must be at least tensile_strength, " + shown(m.tensileStrength);
+          }),
+      number<Material>("breaking_angle", &Material::breakingAngle, above(0, 3.2), "rad",
+                       "relative rotation at which a spring breaks"),
+      number<Material>("stretch_threshold", &Material::stretchThreshold, above(0, kHuge), "",
+                       "relative stretch at which a spring breaks under the criterion `stretch`"),
+      number<Material>("spring_damping", &Material::springDamping, between(0, 0.5), "",
+                       "damping ratio of the springs at their highest frequency"),
+      number<Material>("contact_stiffness", &Material::contactStiffness, above(0, 100), "",
+                       "k_c = this times E h, h the element spacing"),
+      number<Material>("contact_damping", &Material::contactDamping, kShare, "", "damping ratio of contacts"),
+      number<Material>("friction", &Material::friction, between(0, 10), "",
+                       "Coulomb's coefficient of contacts"),
+      number<Material>("bond_work_index", &Material::bondWorkIndex, above(0, 1e4), "kWh/t", "Bond's Wi"),
+      number<Material>("crush_efficiency", &Material::crushEfficiency, above(0, 1), "",
+                       "share of Bond's energy that an element's springs must hold to crush it"),
+      number<Material>("size_modulus", &Material::sizeModulus, above(0, 1), "",
+                       "m of the Gaudin-Schuhmann distribution of sizes"),
+      number<Material>("dust_radius", &Material::dustRadius, above(0, 0.01), "m",
+                       "radius of the largest dust grain"),
+      number<Material>("debris_speed", &Material::debrisSpeed, between(0, 100), "",
+                       "speed of debris relative to their element, over the element's own"),
+  };
+  return table;
+}
+
+const Table<Model>& modelKeys() {
+  static const Table<Model> table = {
+      {"preset", "default, paper", "", "reading of the paper; the keys below change single points",
+       [](Model& target, const Json& json, const Place& place) {
+         target = readWord(json, {"default", "paper"}, place) == "paper" ? Model::paper() : Model();
+       },
+       [](const Model&) { return std::string("default"); }},
+      word<Model, BreakCriterion>(
+          "break_criterion", &Model::breakCriterion,
+          {{"mohr_coulomb", BreakCriterion::MohrCoulomb}, {"stretch", BreakCriterion::Stretch}},
+          "when a spring breaks"),
+      flag<Model>("rotational_stiffness", &Model::rotationalStiffness, "springs resist bending and twisting"),
+      flag<Model>("contact_beside_spring", &Model::contactBesideSpring,
+                  "spring and contact act on a pair together"),
+      flag<Model>("coulomb_friction", &Model::coulombFriction, "friction is limited by the normal force"),
+      flag<Model>("conserve_debris", &Model::conserveDebris,
+                  "debris keep momentum, spin and energy of their element"),
+      word<Model, DebrisSizes>("debris_sizes", &Model::debrisSizes,
+                               {{"mass", DebrisSizes::Mass}, {"number", DebrisSizes::Number}},
+                               "pieces carry equal mass, or eq. (5) to the letter"),
+      word<Model, CellJoining>("cell_joining", &Model::cellJoining,
+                               {{"transitive", CellJoining::Transitive}, {"direct", CellJoining::Direct}},
+                               "which cells are drawn joined at a vertex"),
+  };
+  return table;
+}
+
+std::string thickest(const SceneObject& o) {
+  return shown(o.size.minCoeff() / 2);
+}
+
+const Table<SceneObject>& objectKeys() {
+  static const Table<SceneObject> table = withMotion(withPlacement<SceneObject>({
+      word<SceneObject, SceneObject::Shape>("shape", &SceneObject::shape, {{"box", SceneObject::Shape::Box}},
+                                            "form of the solid"),
+      vector<SceneObject>("size", &SceneObject::size, kLength, "m", "full edge lengths of the box")
+          .required(),
+      whole<SceneObject>("elements", &SceneObject::elements, 1, 1e7, "", "how many elements it is cut into"),
+      number<SceneObject>("radius", &SceneObject::radius, between(0, kFarthest), "m",
+                          "of the elements; 0 is chosen from `fill`")
+          .must([](const SceneObject& o) {
+            return o.radius <= o.size.minCoeff() / 2
+                       ? std::string()
+                       : "must be at most " + thickest(o) + ", half the smallest edge of the box";
+          }),
+      number<SceneObject>("fill", &SceneObject::fill, between(0.3, 0.6), "",
+                          "share of the solid that the spheres fill when `radius` is 0"),
+      {"anchor", "[x, y, z], not zero", "", "the flat side that faces this way is tied to the world",
+       [](SceneObject& target, const Json& json, const Place& place) {
+         target.anchor = readVector(json, kPosition, place);
+         if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
+       },
+       [](const SceneObject&) { return std::string("not tied"); }},
+      number<SceneObject>("mass_damping", &SceneObject::massDamping, between(0, 1e4), "1/s",
+                          "decay rate of the deformation; the rigid motion is not damped"),
+      object<SceneObject, Material>("material", &SceneObject::material, materialKeys(), "what it is made of"),
+      object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),
+  }));
+  return table;
+}
+
+Key<SceneBody> hullPoints() {
+  return {"points",
+          "list of at least 4 [x, y, z]",
+          "m",
+          "corners of the hull",
+          [](SceneBody& target, const Json& json, const Place& place) {
+            requireList(json, place);
+            for (std::size_t i = 0; i < json.size(); ++i)
+              target.points.push_back(readVector(json[i], kPosition, place.child(std::to_string(i))));
+            if (target.points.size() < 4)
+              place.refuse("has " + shown(double(json.size())) + " points", "must have 4 or more");
+          },
+          [](const SceneBody&) { return std::string(); }};
+}
+
+std::function<bool(const SceneBody&)> is(SceneBody::Shape shape) {
+  return [shape](const SceneBody& body) { return body.shape == shape; };
+}
+
+Key<SceneBody> sphereRadius() {
+  return number<SceneBody>("radius", &SceneBody::radius, kLength, "m", "of the sphere")
+      .required()
+      .only("sphere", is(SceneBody::Shape::Sphere));
+}
+
+Key<SceneBody> boxSize() {
+  return vector<SceneBody>("size", &SceneBody::size, kLength, "m", "full edge lengths")
+      .required()
+      .only("box", is(SceneBody::Shape::Box));
+}
+
+Table<SceneBody> withSurface(Table<SceneBody> table) {
+  table.push_back(
+      number<SceneBody>("friction", &SceneBody::friction, between(0, 10), "", "Bullet's friction"));
+  table.push_back(
+      number<SceneBody>("restitution", &SceneBody::restitution, kShare, "", "Bullet's restitution"));
+  return table;
+}
+
+const Table<SceneBody>& impactorKeys() {
+  using Shape = SceneBody::Shape;
+  static const Table<SceneBody> table = withSurface(withMotion(withPlacement<SceneBody>({
+      word<SceneBody, Shape>("shape", &SceneBody::shape,
+                             {{"sphere", Shape::Sphere}, {"box", Shape::Box}, {"hull", Shape::Hull}},
+                             "form of the body")
+          .required(),
+      sphereRadius(),
+      boxSize(),
+      hullPoints().required().only("hull", is(Shape::Hull)),
+      number<SceneBody>("mass", &SceneBody::mass, above(0, 1e9), "kg", "of the body").required(),
+  })));
+  return table;
+}
+
+const Table<SceneBody>& staticKeys() {
+  using Shape = SceneBody::Shape;
+  static const Table<SceneBody> table = withSurface(withPlacement<SceneBody>({
+      word<SceneBody, Shape>("shape", &SceneBody::shape, {{"plane", Shape::Plane}, {"box", Shape::Box}},
+                             "form of the body")
+          .required(),
+      boxSize(),
+      direction<SceneBody>("normal", &SceneBody::normal, "out of the solid half of space")
+          .only("plane", is(Shape::Plane)),
+      number<SceneBody>("offset", &SceneBody::offset, kPosition, "m", "along the normal")
+          .only("plane", is(Shape::Plane)),
+  }));
+  return table;
+}
+
+const Table<SceneCamera>& cameraKeys() {
+  static const Table<SceneCamera> table = {
+      vector<SceneCamera>("eye", &SceneCamera::eye, kPosition, "m", "where the camera stands"),
+      vector<SceneCamera>("target", &SceneCamera::target, kPosition, "m", "what it looks at")
+          .must([](const SceneCamera& c) {
+            return (c.target - c.eye).norm() > 1e-6 ? std::string() : "must differ from camera.eye";
+          }),
+      number<SceneCamera>("field_of_view_degrees", &SceneCamera::fieldOfViewDegrees, between(1, 170),
+                          "degrees", "vertical"),
+  };
+  return table;
+}
+
+const Table<SceneLight>& lightKeys() {
+  static const Table<SceneLight> table = {
+      direction<SceneLight>("direction", &SceneLight::direction, "in which the light travels")
+          .must([](const SceneLight& l) {
+            return l.direction.y() < 0 ? std::string() : "must go down: its y must be < 0";
+          }),
+      number<SceneLight>("ambient", &SceneLight::ambient, between(0, 10), "",
+                         "times the usual light of sky and ground"),
+  };
+  return table;
+}
+
+bool isPowerOfTwo(int n) {
+  return (n & (n - 1)) == 0;
+}
+
+const Table<SceneDust>& dustKeys() {
+  static const Table<SceneDust> table = {
+      word<SceneDust, DustBackend>(
+          "backend", &SceneDust::backend,
+          {{"auto", DustBackend::Auto}, {"cpu", DustBackend::Cpu}, {"gl", DustBackend::Gl}},
+          "where it is computed; auto is gl on a graphics card, cpu where GL is software or absent"),
+      whole<SceneDust>("resolution", &SceneDust::resolution, 8, 256, "",
+                       "cells along each axis, a power of two")
+          .must([](const SceneDust& d) {
+            return isPowerOfTwo(d.resolution) ? std::string() : "must be a power of two, 8 to 256";
+          }),
+      vector<SceneDust>("min", &SceneDust::min, kPosition, "m",
+                        "lower corner of the grid's box; its floor is ground"),
+      vector<SceneDust>("max", &SceneDust::max, kPosition, "m", "upper corner").must([](const SceneDust& d) {
+        return (d.max - d.min).minCoeff() > 1e-3 ? std::string() : "must be above dust.min in x, y and z";
+      }),
+      number<SceneDust>("opacity", &SceneDust::opacity, between(0, 1000), "",
+                        "times the extinction of real dust, for the eye"),
+      number<SceneDust>("vorticity", &SceneDust::vorticity, between(0, 10), "",
+                        "strength of vorticity confinement"),
+      number<SceneDust>("drag", &SceneDust::drag, between(0, 100), "1/s", "decay rate of the air's velocity"),
+      whole<SceneDust>("pressure_cycles", &SceneDust::pressureCycles, 1, 100, "",
+                       "multigrid cycles of the pressure a step"),
+  };
+  return table;
+}
+
+const Table<SceneDebris>& debrisKeys() {
+  static const Table<SceneDebris> table = {
+      whole<SceneDebris>("budget", &SceneDebris::budget, 1, 1e7, "",
+                         "pieces alive at one time; older resting ones go first"),
+  };
+  return table;
+}
+
+const Table<Scene>& allKeys() {
+  static const Table<Scene> table = {
+      list<Scene, SceneObject>("objects", &Scene::objects, objectKeys(), "what can break"),
+      list<Scene, SceneBody>("impactors", &Scene::impactors, impactorKeys(), "moving rigid bodies"),
+      list<Scene, SceneBody>("statics", &Scene::statics, staticKeys(), "rigid bodies that never move"),
+      vector<Scene>("gravity", &Scene::gravity, between(-1000, 1000), "m/s^2", "y is up"),
+      number<Scene>("bullet_rate", &Scene::bulletRate, between(1, 1e5), "Hz", "Bullet's ticks"),
+      whole<Scene>("frames", &Scene::frames, 1, 1e6, "", "length of the run"),
+      number<Scene>("fps", &Scene::fps, between(1, 1e4), "1/s", "frames in a second")
+          .must([](const Scene& s) {
+            return s.fps <= s.bulletRate ? std::string()
+                                         : "must be at most bullet_rate, " + shown(s.bulletRate);
+          }),
+      whole<Scene>("seed", &Scene::seed, 0, 9007199254740992.0, "",
+                   "of the packing and of the debris' sizes"),
+      word<Scene, Precision>("precision", &Scene::precision,
+                             {{"float", Precision::Float}, {"double", Precision::Double}},
+                             "of the elements' state"),
+      whole<Scene>("max_substeps_per_frame", &Scene::maxSubstepsPerFrame, 1, 1e7, "",
+                   "a scene that needs more is refused"),
+      number<Scene>("substep_safety", &Scene::substepSafety, above(0, 1), "",
+                    "share of the stable substep that is used"),
+      flag<Scene>("sleep", &Scene::sleep, "bodies at rest are put to sleep"),
+      flag<Scene>("breaking", &Scene::breaking, "springs may break"),
+      flag<Scene>("crushing", &Scene::crushing, "elements may be crushed"),
+      whole<Scene>("max_events", &Scene::maxEvents, 1, 1e8, "",
+                   "events kept a frame; further ones are dropped with a warning"),
+      object<Scene, SceneCamera>("camera", &Scene::camera, cameraKeys(), "of the pictures"),
+      object<Scene, SceneLight>("light", &Scene::light, lightKeys(), "the sun"),
+      part<Scene, SceneDust>("dust", &Scene::dust, dustKeys(),
+                             "the dust grid; without this object there is none"),
+      part<Scene, SceneDebris>("debris", &Scene::debris, debrisKeys(),
+                               "debris particles; without this object there are none"),
+  };
+  return table;
+}
+
+}  // namespace
+
+const Table<Scene>& sceneKeys() {
+  return allKeys();
+}
+
+std::string describeKeys() {
+  std::vector<KeyLine> lines;
+  describe(allKeys(), lines, "");
+  std::string text = "| key | type and limits | unit | default | meaning |\n|---|---|---|---|---|\n";
+  for (const KeyLine& line : lines) {
+    text += "| `" + line.path + "` | " + line.type + " | " + line.unit + " | " + line.standard + " | " +
+            line.meaning + " |\n";
+  }
+  return text;
+}
+
+}  // namespace rubble::demo

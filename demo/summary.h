@@ -1,0 +1,12 @@
+// The table that ends a run.
+#pragma once
+
+#include <ostream>
+
+#include "recorder.h"
+
+namespace rubble::demo {
+
+void printSummary(std::ostream& out, const Summary& summary);
+
+}  // namespace rubble::demo

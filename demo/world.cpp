@@ -1,0 +1,185 @@
+#include "world.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "hash.h"
+#include "input_error.h"
+
+namespace rubble::demo {
+namespace {
+
+btVector3 toBullet(const Eigen::Vector3d& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+
+btTransform placed(const Placement& at) {
+  btTransform transform(btQuaternion::getIdentity(), toBullet(at.position));
+  const double degrees = at.rotationDegrees.norm();
+  if (degrees > 0) {
+    const double angle = degrees * std::numbers::pi / 180;
+    transform.setRotation(btQuaternion(toBullet(at.rotationDegrees / degrees), static_cast<btScalar>(angle)));
+  }
+  return transform;
+}
+
+std::unique_ptr<btCollisionShape> makeShape(const SceneBody& def) {
+  switch (def.shape) {
+    case SceneBody::Shape::Sphere:
+      return std::make_unique<btSphereShape>(static_cast<btScalar>(def.radius));
+    case SceneBody::Shape::Box:
+      return std::make_unique<btBoxShape>(toBullet(def.size / 2));
+    case SceneBody::Shape::Plane:
+      return std::make_unique<btStaticPlaneShape>(toBullet(def.normal.normalized()),
+                                                  static_cast<btScalar>(def.offset));
+    case SceneBody::Shape::Hull:
+      break;
+  }
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Eigen::Vector3d& point : def.points) hull->addPoint(toBullet(point), false);
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
+  DestructionDef def;
+  def.precision = scene.precision;
+  def.maxSubstepsPerFrame = scene.maxSubstepsPerFrame;
+  def.substepSafety = scene.substepSafety;
+  def.debris = scene.debris.has_value();
+  def.maxDebris = scene.debris ? scene.debris->budget : 0;
+  def.maxEvents = scene.maxEvents;
+  def.sleep = scene.sleep;
+  def.breaking = scene.breaking;
+  def.crushing = scene.crushing;
+  def.seed = scene.seed;
+  def.log = log;
+  return def;
+}
+
+/// Does `work` on one object of the scene; what the library refuses there becomes the scene's error.
+template <class Work>
+void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    throw InputError(scene.file, "objects." + std::to_string(object), error.what());
+  }
+}
+
+}  // namespace
+
+Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const LogFunction& log) {
+  Assets assets;
+  for (const SceneObject& object : scene.objects) {
+    CookOptions options;
+    options.elements = object.elements;
+    options.radius = object.radius;
+    options.fill = object.fill;
+    options.seed = scene.seed;
+    options.anchorDirection = object.anchor;
+    refuseAt(scene, assets.size(), [&] {
+      assets.push_back(std::make_shared<const Asset>(cook(boxMesh(object.size), options, progress, log)));
+    });
+  }
+  return assets;
+}
+
+World::World(const Scene& scene, const LogFunction& log)
+    : m_scene(scene),
+      m_world(std::make_unique<btDiscreteDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver,
+                                                        &m_configuration)),
+      m_destruction(std::make_unique<Destruction>(*m_world, destructionDef(scene, log))) {
+  m_world->setGravity(toBullet(scene.gravity));
+  m_world->setInternalTickCallback(
+      [](btDynamicsWorld* world, btScalar seconds) {
+        static_cast<World*>(world->getWorldUserInfo())->finishTick(static_cast<double>(seconds));
+      },
+      this);
+}
+
+World::World(const Scene& scene, const Assets& assets, const LogFunction& log) : World(scene, log) {
+  for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
+  for (const SceneBody& body : scene.impactors) addImpactor(body);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    refuseAt(scene, i, [&] { addObject(scene.objects[i], assets[i]); });
+  }
+}
+
+World::~World() {
+  m_destruction.reset();
+  for (int i = m_world->getNumCollisionObjects() - 1; i >= 0; --i) {
+    btCollisionObject* object = m_world->getCollisionObjectArray()[i];
+    m_world->removeCollisionObject(object);
+    delete object;
+  }
+}
+
+void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> asset) {
+  DestructibleBodyDef def;
+  def.asset = std::move(asset);
+  def.material = object.material;
+  def.model = object.model;
+  def.transform = placed(object);
+  def.velocity = toBullet(object.velocity);
+  def.spin = toBullet(object.spin);
+  def.massDamping = object.massDamping;
+  def.anchored = object.anchor.has_value();
+  m_destruction->addBody(def);
+}
+
+btRigidBody* World::addBody(const SceneBody& def) {
+  btCollisionShape* shape = m_shapes.emplace_back(makeShape(def)).get();
+  const btScalar mass = static_cast<btScalar>(def.mass);
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0) shape->calculateLocalInertia(mass, inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
+  info.m_startWorldTransform = placed(def);
+  info.m_friction = static_cast<btScalar>(def.friction);
+  info.m_restitution = static_cast<btScalar>(def.restitution);
+  auto* body = new btRigidBody(info);  // deleted with the world
+  m_world->addRigidBody(body);
+  return body;
+}
+
+btRigidBody* World::addImpactor(const SceneBody& def) {
+  btRigidBody* body = m_impactors.emplace_back(addBody(def));
+  body->setLinearVelocity(toBullet(def.velocity));
+  body->setAngularVelocity(toBullet(def.spin));
+  return body;
+}
+
+void World::step() {
+  m_substeps = 0;
+  const int mostTicks = static_cast<int>(std::ceil(m_scene.bulletRate / m_scene.fps)) + 1;
+  try {
+    m_world->stepSimulation(static_cast<btScalar>(1 / m_scene.fps), mostTicks,
+                            static_cast<btScalar>(1 / m_scene.bulletRate));
+  } catch (const Error& error) {
+    throw RunStopped(error.what());
+  }
+}
+
+void World::finishTick(double seconds) {
+  const int substeps = m_destruction->lastSubsteps();
+  m_substeps += substeps;
+  m_substepLength = substeps > 0 ? seconds / substeps : 0;
+}
+
+std::uint64_t World::hash() const {
+  Fnv1a hash;
+  hash.add(m_destruction->hash());
+  for (int i = 0; i < m_world->getNumCollisionObjects(); ++i) {
+    const btCollisionObject* object = m_world->getCollisionObjectArray()[i];
+    if (!btRigidBody::upcast(object)) continue;
+    const btTransform& pose = object->getWorldTransform();
+    for (int row = 0; row < 3; ++row) {
+      // Three of Bullet's four scalars: the last one is padding.
+      for (int column = 0; column < 3; ++column) hash.add(pose.getBasis()[row][column]);
+      hash.add(pose.getOrigin()[row]);
+    }
+  }
+  return hash.value();
+}
+
+}  // namespace rubble::demo

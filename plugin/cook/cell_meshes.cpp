@@ -1,0 +1,189 @@
+#include "cell_meshes.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+#include "corner_normals.h"
+
+namespace rubble::cooking {
+namespace {
+
+constexpr double kPatchCosine =
+    0.86602540378443865;  // of 30 degrees, between a polygon and its patch's first
+
+// Area vector and first moment of some triangles.
+struct FaceSums {
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();    // [m^2]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [m^3]
+  double size = 0;                                   // sum of the triangles' areas
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // stands for the centroid of a face without area
+
+  void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d share = (b - a).cross(c - a) / 2;
+    area += share;
+    size += share.norm();
+    moment += share.norm() / 3 * (a + b + c);
+    corner = a;
+  }
+  Eigen::Vector3d centroid() const { return size > 0 ? Eigen::Vector3d(moment / size) : corner; }
+};
+
+class CellMeshBuilder {
+ public:
+  CellMeshBuilder(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset)
+      : m_mesh(mesh), m_diagram(diagram), m_asset(asset), m_cornerNormals(cornerNormals(mesh)) {}
+
+  void buildVertices() {
+    for (std::size_t v = 0; v < m_diagram.vertices.size(); ++v)
+      m_asset.vertices.push_back({m_diagram.vertices[v].cast<float>(), m_diagram.vertexSites[v]});
+  }
+
+  void buildCell(std::uint32_t cell) {
+    Cell& result = m_asset.cells.emplace_back();
+    result.firstTriangle = static_cast<std::uint32_t>(m_asset.triangles.size());
+    result.firstFace = static_cast<std::uint32_t>(m_asset.faces.size());
+    m_outerCorners.clear();
+    for (const std::uint32_t p : m_diagram.polygonsOf.of(cell))
+      addPolygon(cell, m_diagram.surface.polygons[p]);
+    result.outerTriangles = static_cast<std::uint32_t>(m_asset.triangles.size()) - result.firstTriangle;
+    addPatches(cell);
+    for (const std::uint32_t c : m_diagram.capsOf.of(cell)) addCap(cell, m_diagram.caps.caps[c]);
+    result.innerTriangles =
+        static_cast<std::uint32_t>(m_asset.triangles.size()) - result.firstTriangle - result.outerTriangles;
+    result.faceCount = static_cast<std::uint32_t>(m_asset.faces.size()) - result.firstFace;
+  }
+
+ private:
+  std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal) {
+    m_asset.corners.push_back({vertex, cell, normal});
+    return static_cast<std::uint32_t>(m_asset.corners.size() - 1);
+  }
+
+  void addPolygon(std::uint32_t cell, const SurfacePolygon& polygon) {
+    m_polygonCorners.clear();
+    for (std::uint32_t k = 0; k < polygon.count; ++k) {
+      const std::uint32_t vertex = m_diagram.surface.vertices[polygon.first + k];
+      const Eigen::Vector3f normal =
+          surfaceNormal(polygon.triangle, m_diagram.vertices[vertex]).cast<float>();
+      // Neighbouring polygons of the cell share the corner where they agree on the normal.
+      const std::array<std::uint32_t, 4> key = {vertex, std::bit_cast<std::uint32_t>(normal.x()),
+                                                std::bit_cast<std::uint32_t>(normal.y()),
+                                                std::bit_cast<std::uint32_t>(normal.z())};
+      const auto [entry, isNew] = m_outerCorners.try_emplace(key, 0);
+      if (isNew) entry->second = newCorner(cell, vertex, normal);
+      m_polygonCorners.push_back(entry->second);
+    }
+    for (std::size_t k = 2; k < m_polygonCorners.size(); ++k)
+      m_asset.triangles.push_back({m_polygonCorners[0], m_polygonCorners[k - 1], m_polygonCorners[k]});
+  }
+
+  // The corner normals of a mesh triangle, interpolated.
+  Eigen::Vector3d surfaceNormal(std::uint32_t triangle, const Eigen::Vector3d& place) const {
+    const auto& normals = m_cornerNormals[triangle];
+    if (normals[0] == normals[1] && normals[1] == normals[2]) return normals[0];
+    const auto& [i, j, k] = m_mesh.triangles[triangle];
+    const Eigen::Vector3d& a = m_mesh.vertices[i];
+    const Eigen::Vector3d& b = m_mesh.vertices[j];
+    const Eigen::Vector3d& c = m_mesh.vertices[k];
+    const Eigen::Vector3d& flat = m_mesh.normals[triangle];
+    const double atA = std::max(0.0, flat.dot((b - place).cross(c - place)));
+    const double atB = std::max(0.0, flat.dot((c - place).cross(a - place)));
+    const double atC = std::max(0.0, flat.dot((a - place).cross(b - place)));
+    const Eigen::Vector3d sum = atA * normals[0] + atB * normals[1] + atC * normals[2];
+    const double length = sum.norm();
+    return length > 0 ? Eigen::Vector3d(sum / length) : flat;
+  }
+
+  void addCap(std::uint32_t cell, const Cap& cap) {
+    const std::uint32_t other = cap.first == cell ? cap.second : cap.first;
+    const Eigen::Vector3d normal = (m_diagram.sites[other] - m_diagram.sites[cell]).normalized();
+    m_capCorners.clear();
+    FaceSums sums;
+    m_diagram.visitCap(cap, cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t k = 0; const std::uint32_t vertex : {a, b, c}) {
+        const auto [entry, isNew] = m_capCorners.try_emplace(vertex, 0);
+        if (isNew) entry->second = newCorner(cell, vertex, normal.cast<float>());
+        triangle[k++] = entry->second;
+      }
+      m_asset.triangles.push_back(triangle);
+      sums.add(m_diagram.vertices[a], m_diagram.vertices[b], m_diagram.vertices[c]);
+    });
+    const double area = std::max(0.0, normal.dot(sums.area));
+    m_asset.faces.push_back(
+        {other, static_cast<float>(area), normal.cast<float>(), sums.centroid().cast<float>()});
+  }
+
+  // One face for each connected set of surface polygons that look nearly the same way.
+  void addPatches(std::uint32_t cell) {
+    const auto polygons = m_diagram.polygonsOf.of(cell);
+    std::map<std::uint32_t, std::uint32_t>
+        polygonOnTriangle;  // one at most: cells are convex before they are clipped
+    for (const std::uint32_t p : polygons)
+      polygonOnTriangle.emplace(m_diagram.surface.polygons[p].triangle, p);
+    while (!polygonOnTriangle.empty()) {
+      const auto largest = std::max_element(
+          polygonOnTriangle.begin(), polygonOnTriangle.end(),
+          [this](const auto& a, const auto& b) { return polygonSize(a.second) < polygonSize(b.second); });
+      addPatch(largest->second, polygonOnTriangle);
+    }
+  }
+
+  double polygonSize(std::uint32_t p) const {
+    FaceSums sums;
+    addSums(m_diagram.surface.polygons[p], sums);
+    return sums.size;
+  }
+
+  void addSums(const SurfacePolygon& polygon, FaceSums& sums) const {
+    m_diagram.visitPolygon(polygon, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      sums.add(m_diagram.vertices[a], m_diagram.vertices[b], m_diagram.vertices[c]);
+    });
+  }
+
+  // Floods from the polygon `first` and takes what it reaches out of `left`.
+  void addPatch(std::uint32_t first, std::map<std::uint32_t, std::uint32_t>& left) {
+    const SurfacePieces& surface = m_diagram.surface;
+    const Eigen::Vector3d orientation = m_mesh.normals[surface.polygons[first].triangle];
+    FaceSums sums;
+    m_queue.assign(1, first);
+    left.erase(surface.polygons[first].triangle);
+    for (std::size_t at = 0; at < m_queue.size(); ++at) {
+      const SurfacePolygon& polygon = surface.polygons[m_queue[at]];
+      addSums(polygon, sums);
+      for (std::uint32_t k = 0; k < polygon.count; ++k) {
+        const std::uint32_t label = surface.labels[polygon.first + k];
+        if (label < kSideLabel) continue;
+        const auto next = left.find(m_mesh.neighbours[polygon.triangle][label - kSideLabel]);
+        if (next == left.end() || m_mesh.normals[next->first].dot(orientation) < kPatchCosine) continue;
+        m_queue.push_back(next->second);
+        left.erase(next);
+      }
+    }
+    const double length = sums.area.norm();
+    const Eigen::Vector3d normal = length > 0 ? Eigen::Vector3d(sums.area / length) : orientation;
+    m_asset.faces.push_back(
+        {kNoElement, static_cast<float>(sums.size), normal.cast<float>(), sums.centroid().cast<float>()});
+  }
+
+  const CheckedMesh& m_mesh;
+  const RestrictedVoronoi& m_diagram;
+  Asset& m_asset;
+  const std::vector<std::array<Eigen::Vector3d, 3>> m_cornerNormals;
+  std::map<std::array<std::uint32_t, 4>, std::uint32_t>
+      m_outerCorners;                                   // (vertex, bits of the normal) -> corner
+  std::map<std::uint32_t, std::uint32_t> m_capCorners;  // vertex -> corner
+  std::vector<std::uint32_t> m_polygonCorners, m_queue;
+};
+
+}  // namespace
+
+void buildCellMeshes(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset) {
+  CellMeshBuilder builder(mesh, diagram, asset);
+  builder.buildVertices();
+  asset.cells.reserve(diagram.cellCount());
+  for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) builder.buildCell(cell);
+}
+
+}  // namespace rubble::cooking

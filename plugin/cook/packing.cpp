@@ -1,0 +1,265 @@
+#include "packing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "random.h"
+
+namespace rubble::cooking {
+namespace {
+
+constexpr double kMoveShare = 0.35;    // of each overlap taken back per iteration; both partners move
+constexpr double kLargestMove = 0.5;   // [r] per iteration
+constexpr int kProjections = 4;        // three faces may meet in a corner, and curved ones need one more
+constexpr int kPolishIterations = 30;  // with exact distances, after the fast ones
+constexpr double kStuck = 0.05;        // [r] a centre pressed out this far sits where no sphere fits
+constexpr int kRestartPeriod = 50;     // iterations between the checks for stuck centres
+constexpr int kBlindTries = 64;        // random places before a random place is pushed inside
+constexpr int kTries = 20000;          // for one element, before giving up
+constexpr double kFits = 1e-6;         // [r] tolerance of "a sphere fits here"
+
+// A uniform grid over the centres, and the overlaps found with it.
+class ContactGrid {
+ public:
+  ContactGrid(const Eigen::AlignedBox3d& bounds, double diameter, std::size_t count)
+      : m_origin(bounds.min()) {
+    // Cells as wide as a diameter, unless the solid fills so little of its bounds that there would be too
+    // many.
+    const double mostCells = 8.0 * static_cast<double>(count) + 4096;
+    double size = diameter;
+    const auto cells = [&](double s) { return (bounds.sizes() / s).array().ceil().max(1.0).prod(); };
+    constexpr double kWiden = 1.2;
+    while (cells(size) > mostCells) size *= kWiden;
+    m_scale = 1 / size;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      m_cells[axis] =
+          std::max(1, static_cast<int>(std::ceil(bounds.sizes()[static_cast<Eigen::Index>(axis)] / size)));
+    m_start.resize(static_cast<std::size_t>(m_cells[0]) * static_cast<std::size_t>(m_cells[1]) *
+                       static_cast<std::size_t>(m_cells[2]) +
+                   1);
+    m_cellOf.resize(count);
+    m_order.resize(count);
+    m_sorted.resize(count);
+  }
+
+  // Calls visit(a, b) once for each pair of elements in the same or in neighbouring cells.
+  template <class Visit>
+  void visitPairs(const std::vector<Eigen::Vector3d>& centres, Visit&& visit) {
+    sort(centres);
+    for (std::uint32_t s = 0; s < m_order.size(); ++s) {
+      const std::size_t cell = m_cellOf[m_order[s]];
+      const int x = static_cast<int>(cell % static_cast<std::size_t>(m_cells[0]));
+      const int y = static_cast<int>(cell / static_cast<std::size_t>(m_cells[0]) %
+                                     static_cast<std::size_t>(m_cells[1]));
+      const int z = static_cast<int>(cell / static_cast<std::size_t>(m_cells[0]) /
+                                     static_cast<std::size_t>(m_cells[1]));
+      visitRow(s, s + 1, x + 1, y, z, visit);  // of its own row only what comes after it
+      visitRow(s, rowStart(x - 1, y + 1, z), x + 1, y + 1, z, visit);
+      for (int dy = -1; dy <= 1; ++dy)
+        visitRow(s, rowStart(x - 1, y + dy, z + 1), x + 1, y + dy, z + 1, visit);
+    }
+  }
+
+ private:
+  std::size_t index(int x, int y, int z) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(m_cells[0]) *
+               (static_cast<std::size_t>(y) +
+                static_cast<std::size_t>(m_cells[1]) * static_cast<std::size_t>(z));
+  }
+
+  std::size_t cellAt(const Eigen::Vector3d& place) const {
+    std::array<int, 3> cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      const double scaled = (place[a] - m_origin[a]) * m_scale;
+      cell[axis] = static_cast<int>(std::clamp(scaled, 0.0, static_cast<double>(m_cells[axis] - 1)));
+    }
+    return index(cell[0], cell[1], cell[2]);
+  }
+
+  // Counting sort: elements of a row of cells end up side by side, in the order of their indices within a
+  // cell.
+  void sort(const std::vector<Eigen::Vector3d>& centres) {
+    std::fill(m_start.begin(), m_start.end(), 0u);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      m_cellOf[i] = cellAt(centres[i]);
+      ++m_start[m_cellOf[i] + 1];
+    }
+    for (std::size_t c = 1; c < m_start.size(); ++c) m_start[c] += m_start[c - 1];
+    m_cursor.assign(m_start.begin(), m_start.end() - 1);
+    for (std::uint32_t i = 0; i < centres.size(); ++i) {
+      const std::uint32_t at = m_cursor[m_cellOf[i]]++;
+      m_order[at] = i;
+      m_sorted[at] = centres[i];
+    }
+  }
+
+  bool hasRow(int y, int z) const { return y >= 0 && y < m_cells[1] && z < m_cells[2]; }
+
+  std::uint32_t rowStart(int x, int y, int z) const {
+    return hasRow(y, z) ? m_start[index(std::max(x, 0), y, z)] : 0;
+  }
+
+  // The sorted elements from `first` to the end of cell (x, y, z).
+  template <class Visit>
+  void visitRow(std::uint32_t s, std::uint32_t first, int x, int y, int z, Visit& visit) {
+    if (!hasRow(y, z)) return;
+    const std::uint32_t end = m_start[index(std::min(x, m_cells[0] - 1), y, z) + 1];
+    for (std::uint32_t other = first; other < end; ++other)
+      visit(m_order[s], m_order[other], m_sorted[s], m_sorted[other]);
+  }
+
+  Eigen::Vector3d m_origin;
+  double m_scale = 1;
+  std::array<int, 3> m_cells{};
+  std::vector<std::uint32_t> m_start, m_cursor, m_order;
+  std::vector<std::size_t> m_cellOf;
+  std::vector<Eigen::Vector3d> m_sorted;
+};
+
+class Relaxation {
+ public:
+  Relaxation(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def)
+      : m_distance(distance),
+        m_bounds(bounds),
+        m_def(def),
+        m_random(def.seed),
+        m_grid(bounds, 2 * def.radius, def.count),
+        m_moves(def.count),
+        m_protrusion(def.count, 0.0) {}
+
+  Packing run(const std::function<void(double)>& progress) {
+    if (!start()) return std::move(m_packing);
+    for (int& iteration = m_packing.iterations;; ++iteration) {
+      m_packing.deepestOverlap = findOverlaps();
+      if (m_packing.deepestOverlap <= m_def.maxOverlap || iteration >= m_def.maxIterations) break;
+      applyMoves();
+      project(false);
+      if (iteration % kRestartPeriod == kRestartPeriod - 1) restartStuck();
+      progress(static_cast<double>(iteration) / m_def.maxIterations);
+    }
+    if (m_distance.fastError() > 0) polish();
+    m_packing.deepestProtrusion = *std::max_element(m_protrusion.begin(), m_protrusion.end());
+    return std::move(m_packing);
+  }
+
+ private:
+  bool start() {
+    for (std::size_t i = 0; i < m_def.count; ++i) {
+      Eigen::Vector3d place;
+      if (!findRoom(place)) return false;
+      m_packing.centres.push_back(place);
+    }
+    return true;
+  }
+
+  // A random place where a sphere fits. In thin walls hardly any place will do, so random ones are pushed
+  // inside then.
+  bool findRoom(Eigen::Vector3d& place) {
+    for (int tries = 0; tries < kTries; ++tries) {
+      for (int axis = 0; axis < 3; ++axis)
+        place[axis] = m_bounds.min()[axis] + m_random.uniform() * m_bounds.sizes()[axis];
+      if (tries >= kBlindTries) pushInside(place, false);
+      const double depth = -m_distance.fast(place).value;
+      m_packing.deepestPlace = std::max(m_packing.deepestPlace, depth);
+      if (depth >= (1 - kFits) * m_def.radius) return true;
+    }
+    return false;
+  }
+
+  // Moves the centre until the sphere is inside; returns how far it still protrudes [m].
+  double pushInside(Eigen::Vector3d& centre, bool isExact) const {
+    for (int k = 0; k < kProjections; ++k) {
+      const Distance distance = measure(centre, isExact);
+      const double protrusion = distance.value + m_def.radius;
+      if (protrusion <= 0) return 0;
+      centre -= protrusion * distance.gradient;
+    }
+    return std::max(0.0, measure(centre, isExact).value + m_def.radius);
+  }
+
+  Distance measure(const Eigen::Vector3d& centre, bool isExact) const {
+    const Distance distance = m_distance.fast(centre);
+    const bool isNear = distance.value + 2 * m_distance.fastError() > -m_def.radius;
+    return isExact && isNear ? m_distance.exact(centre) : distance;
+  }
+
+  // Fills m_moves; returns the deepest overlap [2 r].
+  double findOverlaps() {
+    const double diameter = 2 * m_def.radius;
+    double deepest = 0;
+    std::fill(m_moves.begin(), m_moves.end(), Eigen::Vector3d::Zero());
+    m_grid.visitPairs(m_packing.centres, [&](std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& placeA,
+                                             const Eigen::Vector3d& placeB) {
+      const Eigen::Vector3d between = placeB - placeA;
+      const double squared = between.squaredNorm();
+      if (squared >= diameter * diameter) return;
+      const double length = std::sqrt(squared);
+      const double overlap = diameter - length;
+      deepest = std::max(deepest, overlap);
+      const Eigen::Vector3d direction = length > 0 ? Eigen::Vector3d(between / length) : someDirection(a, b);
+      m_moves[a] -= kMoveShare * overlap * direction;
+      m_moves[b] += kMoveShare * overlap * direction;
+    });
+    return deepest / diameter;
+  }
+
+  // For two centres in one place.
+  static Eigen::Vector3d someDirection(std::uint32_t a, std::uint32_t b) {
+    Random random((std::uint64_t{a} << 32) | b);
+    Eigen::Vector3d direction;
+    for (int axis = 0; axis < 3; ++axis) direction[axis] = random.uniform() - 0.5;
+    return direction.normalized();
+  }
+
+  void applyMoves() {
+    const double largest = kLargestMove * m_def.radius;
+    for (std::size_t i = 0; i < m_moves.size(); ++i) {
+      const double length = m_moves[i].norm();
+      m_packing.centres[i] +=
+          length > largest ? Eigen::Vector3d(m_moves[i] * (largest / length)) : m_moves[i];
+    }
+  }
+
+  void project(bool isExact) {
+    for (std::size_t i = 0; i < m_def.count; ++i) m_protrusion[i] = pushInside(m_packing.centres[i], isExact);
+  }
+
+  // Contacts may press a centre into a tip too narrow for it; it starts again elsewhere.
+  void restartStuck() {
+    for (std::size_t i = 0; i < m_def.count; ++i)
+      if (m_protrusion[i] > kStuck * m_def.radius) findRoom(m_packing.centres[i]);
+  }
+
+  // The fast distance is off near edges of the surface; what it left there is mended with the exact one.
+  void polish() {
+    project(true);
+    for (int k = 0;; ++k) {
+      m_packing.deepestOverlap = findOverlaps();
+      if (m_packing.deepestOverlap <= m_def.maxOverlap || k >= kPolishIterations) break;
+      applyMoves();
+      project(true);
+    }
+  }
+
+  const SignedDistance& m_distance;
+  const Eigen::AlignedBox3d m_bounds;
+  const PackingDef m_def;
+  Random m_random;
+  ContactGrid m_grid;
+  Packing m_packing;
+  std::vector<Eigen::Vector3d> m_moves;
+  std::vector<double> m_protrusion;  // [m]
+};
+
+}  // namespace
+
+Packing pack(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def,
+             const std::function<void(double)>& progress) {
+  return Relaxation(distance, bounds, def).run(progress);
+}
+
+}  // namespace rubble::cooking

@@ -1,0 +1,127 @@
+#include "restricted_voronoi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contradiction.h"
+#include "polyhedron.h"
+#include "random.h"
+#include "voronoi_diagram.h"
+#include "voronoi_edges.h"
+
+namespace rubble::cooking {
+namespace {
+
+constexpr int kAttempts = 6;
+constexpr double kVolumeTolerance = 1e-9;  // relative; measured errors are below 1e-13
+
+std::vector<Eigen::Vector3d> jittered(std::span<const Eigen::Vector3d> sites, double jitter,
+                                      std::uint64_t seed) {
+  std::vector<Eigen::Vector3d> moved(sites.begin(), sites.end());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    Random random(mix(seed) ^ i);
+    for (int axis = 0; axis < 3; ++axis) moved[i][axis] += jitter * (2 * random.uniform() - 1);
+  }
+  return moved;
+}
+
+// visitItems calls its argument with (cell, item), always in the same order.
+template <class VisitItems>
+CellLists cellLists(std::size_t cells, VisitItems&& visitItems) {
+  CellLists lists;
+  lists.start.assign(cells + 1, 0);
+  visitItems([&](std::uint32_t cell, std::uint32_t) { ++lists.start[cell + 1]; });
+  for (std::size_t i = 0; i < cells; ++i) lists.start[i + 1] += lists.start[i];
+  lists.items.resize(lists.start.back());
+  std::vector<std::uint32_t> at(lists.start.begin(), lists.start.end() - 1);
+  visitItems([&](std::uint32_t cell, std::uint32_t item) { lists.items[at[cell]++] = item; });
+  return lists;
+}
+
+RestrictedVoronoi cut(const CheckedMesh& mesh, std::vector<Eigen::Vector3d> sites) {
+  const VoronoiDiagram diagram = voronoiDiagram(sites, mesh.bounds.center(), mesh.diagonal());
+  RestrictedVoronoi result;
+  VertexPool pool(mesh, diagram);
+  result.surface = cutSurface(mesh, diagram, pool);
+  const std::vector<InsideStretch> stretches = insideStretches(diagram, result.surface, pool);
+  result.caps = buildCaps(diagram, result.surface, stretches, pool);
+  result.sites = std::move(sites);
+  result.vertices = pool.positions();
+  result.vertexSites = pool.sites();
+  result.polygonsOf = cellLists(result.cellCount(), [&](auto&& add) {
+    for (std::uint32_t p = 0; p < result.surface.polygons.size(); ++p)
+      add(result.surface.polygons[p].site, p);
+  });
+  result.capsOf = cellLists(result.cellCount(), [&](auto&& add) {
+    for (std::uint32_t c = 0; c < result.caps.caps.size(); ++c) {
+      add(result.caps.caps[c].first, c);
+      add(result.caps.caps[c].second, c);
+    }
+  });
+  return result;
+}
+
+// Every directed edge of every cell must have exactly one opposite.
+void checkClosed(const RestrictedVoronoi& diagram) {
+  // Smaller vertex, larger vertex, then direction: opposites end up side by side.
+  std::vector<std::array<std::uint32_t, 3>> edges;
+  for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
+    edges.clear();
+    const auto add = [&edges](std::uint32_t a, std::uint32_t b) {
+      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 0u : 1u});
+    };
+    diagram.visitCell(cell, [&add](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      add(a, b);
+      add(b, c);
+      add(c, a);
+    });
+    std::sort(edges.begin(), edges.end());
+    if (edges.empty()) throw Contradiction("a cell is empty");
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const bool isSecond = e % 2 != 0;
+      if (edges[e][2] != (isSecond ? 1u : 0u)) throw Contradiction("a cell is not closed");
+      if (isSecond && (edges[e][0] != edges[e - 1][0] || edges[e][1] != edges[e - 1][1]))
+        throw Contradiction("a cell is not closed");
+    }
+    if (edges.size() % 2 != 0) throw Contradiction("a cell is not closed");
+  }
+}
+
+void checkVolume(const RestrictedVoronoi& diagram, double expected) {
+  double sum = 0;
+  for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
+    PolyhedronIntegrals integrals(diagram.sites[cell]);
+    diagram.visitCell(cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      integrals.add(diagram.vertices[a], diagram.vertices[b], diagram.vertices[c]);
+    });
+    if (!(integrals.volume() > 0)) throw Contradiction("a cell has no volume");
+    sum += integrals.volume();
+  }
+  if (!(std::abs(sum - expected) <= kVolumeTolerance * expected))
+    throw Contradiction("the volumes of the cells do not add up to the solid's");
+}
+
+}  // namespace
+
+RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eigen::Vector3d> sites,
+                                    double jitter, std::uint64_t seed, const LogFunction& log) {
+  std::string reason;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      RestrictedVoronoi result =
+          cut(mesh, jittered(sites, jitter, seed + static_cast<std::uint64_t>(attempt)));
+      checkClosed(result);
+      checkVolume(result, mesh.volume);
+      return result;
+    } catch (const Contradiction& contradiction) {
+      reason = contradiction.what();
+      if (log) log(LogLevel::Info, "cook: cutting the cells again, with another jitter: " + reason);
+    }
+  }
+  throw Error("mesh: cannot be cut into cells (" + reason + "): it probably passes through itself; " +
+              "allowed are closed surfaces that do not");
+}
+
+}  // namespace rubble::cooking

@@ -1,0 +1,80 @@
+// One piece of debris in motion: flight, hits, sliding. Free functions on plain data; every change of motion
+// is booked.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+
+#include "debris/debris_collider.h"
+#include "debris/flight.h"
+#include "debris/motion.h"
+
+namespace rubble::debris {
+
+/// State of a moving or resting piece. In double: positions in float would step by 1e-5 m at 100 m from the
+/// origin, and the angular momentum of a small piece could not be closed there.
+struct Particle {
+  Eigen::Vector3d position;  // [m]
+  Eigen::Vector3d velocity;  // [m/s]
+  Eigen::Vector3d spin;      // [rad/s]
+  double mass;               // [kg]
+  double inertia;            // [kg m^2]
+  GrainDrag drag;
+  double collisionRadius;  // [m]
+  double friction;         // Coulomb mu
+  double stillTime;        // time that it has been slower than the rest speed [s]
+  std::uint32_t support;   // surface last touched
+  bool touched;            // in the last step
+};
+
+/// What a surface received from the debris in one step, about the world's origin.
+struct SurfaceImpulse {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]
+  std::uint32_t hits = 0;
+
+  Eigen::Vector3d angularAbout(const Eigen::Vector3d& origin) const { return angular - origin.cross(linear); }
+};
+
+/// What changed the motion of the debris.
+struct Exchange {
+  Impulse gravity;  ///< energy: work done by gravity
+  Impulse air;      ///< energy: minus what the air took
+  Impulse contact;  ///< energy: what hits took (negative) or moving surfaces gave
+  /// Work done on the surroundings by contact [J]; contact.energy + workOnSurfaces is minus what contacts
+  /// dissipated.
+  double workOnSurfaces = 0;
+  Motion added;
+  Motion removed;
+  std::uint64_t addedCount = 0;
+  std::uint64_t removedCount = 0;
+};
+
+/// Constants of one step.
+struct StepInput {
+  double dt;                // [s]
+  Eigen::Vector3d gravity;  // [m/s^2]
+  double restitution;       // of hits
+  DebrisCollider* collider;
+};
+
+/// Where a step books.
+struct StepBooks {
+  Exchange* exchange;
+  std::span<SurfaceImpulse> surfaces;
+};
+
+/// Motion of one piece.
+inline Motion motionOf(const Particle& p) {
+  return motionOf(p.mass, p.inertia, p.position, p.velocity, p.spin);
+}
+
+/// Moves a piece through one step: flight until a hit, bounce, flight again; where a bounce would be lower
+/// than gravity takes back at once, sliding under Coulomb friction for the rest of the step.
+void advance(Particle& particle, const StepInput& input, const StepBooks& books);
+
+/// Stops a piece on its support; what it still had is booked as contact.
+void bringToRest(Particle& particle, const StepBooks& books);
+
+}  // namespace rubble::debris

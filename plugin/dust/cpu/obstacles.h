@@ -1,0 +1,15 @@
+// Solids in the grid: which cells they cover, and the velocity of the body there.
+#pragma once
+
+#include <span>
+
+#include "dust/cpu/fields.h"
+#include "dust/solids.h"
+#include "dust/thread_pool.h"
+
+namespace rubble::dust {
+
+// Marks the cells whose centre lies in a solid and gives them its velocity, v + spin x offset.
+void markSolids(const Lattice& lattice, std::span<const SolidCells> solids, Fields& fields, ThreadPool& pool);
+
+}  // namespace rubble::dust

@@ -1,0 +1,315 @@
+#include "edem/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "edem/grid.h"
+#include "edem/stable_step.h"
+#include "rubble/error.h"
+
+namespace rubble::edem {
+namespace {
+
+void require(bool holds, const Material& material, const char* key, double value, const char* allowed) {
+  if (holds && std::isfinite(value)) return;
+  throw Error("material " + material.name + ": " + key + ": " + std::to_string(value) + " is not allowed, must be " +
+              allowed);
+}
+
+void check(const BodyDef& def) {
+  if (!def.asset) throw Error("destructible body: asset: none given");
+  if (def.asset->elementCount() == 0) throw Error("destructible body: asset: has no elements");
+  const Material& m = def.material;
+  require(m.density > 0, m, "density", m.density, "> 0 kg/m^3");
+  require(m.youngsModulus > 0, m, "youngsModulus", m.youngsModulus, "> 0 Pa");
+  require(m.tensileStrength >= 0, m, "tensileStrength", m.tensileStrength, ">= 0 Pa");
+  require(m.compressiveStrength >= m.tensileStrength, m, "compressiveStrength", m.compressiveStrength,
+          ">= tensileStrength");
+  require(m.breakingAngle > 0, m, "breakingAngle", m.breakingAngle, "> 0 rad");
+  require(m.stretchThreshold >= 0, m, "stretchThreshold", m.stretchThreshold, ">= 0");
+  require(m.springDamping >= 0 && m.springDamping <= 0.5, m, "springDamping", m.springDamping, "0 to 0.5");
+  require(m.contactStiffness > 0, m, "contactStiffness", m.contactStiffness, "> 0");
+  require(m.contactDamping >= 0 && m.contactDamping <= 1, m, "contactDamping", m.contactDamping, "0 to 1");
+  require(m.friction >= 0, m, "friction", m.friction, ">= 0");
+  require(def.massDamping >= 0, m, "massDamping", def.massDamping, ">= 0 1/s");
+  if (!def.crushEnergy.empty() && def.crushEnergy.size() != def.asset->elementCount())
+    throw Error("destructible body: crushEnergy: must have one value an element");
+  if (!def.velocity.allFinite() || !def.spin.allFinite() || !def.transform.matrix().allFinite())
+    throw Error("destructible body: transform, velocity, spin: must be finite");
+}
+
+template <class Real>
+void makeElements(Body<Real>& body, const BodyDef& def) {
+  const Asset& asset = *def.asset;
+  const std::size_t n = asset.elementCount();
+  body.mass.resize(n);
+  body.inverseMass.resize(n);
+  body.inertia.resize(n);
+  body.inverseInertia.resize(n);
+  body.restCentred.resize(n);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    // DESIGN 3.1: an object weighs what its solid weighs, and turns as its cells do.
+    body.mass[i] = def.material.density * asset.volumes[i];
+    body.inertia[i] = body.mass[i] * std::max(asset.gyrations[i], 0.4 * asset.radius * asset.radius);
+    body.inverseMass[i] = Real(1 / body.mass[i]);
+    body.inverseInertia[i] = Real(1 / body.inertia[i]);
+    centre += body.mass[i] * asset.positions[i];
+    total += body.mass[i];
+  }
+  centre /= total;
+  for (std::size_t i = 0; i < n; ++i) body.restCentred[i] = asset.positions[i] - centre;
+  body.turn = Eigen::Quaterniond(def.transform.linear()).normalized();
+  body.origin = def.transform * centre;
+}
+
+/// k = E A / |d0|, k_rot = E A^2 / (12 |d0|) (square face; bending and twist alike as the lattice has nu = 0).
+template <class Real>
+Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, double length, const Material& material,
+                        const Model& model) {
+  Spring<Real> spring{};
+  spring.first = first;
+  spring.second = second;
+  spring.area = Real(area);
+  spring.stiffness = Real(material.youngsModulus * area / length);
+  spring.rotational = model.rotationalStiffness ? Real(material.youngsModulus * area * area / (12 * length)) : Real(0);
+  return spring;
+}
+
+template <class Real>
+void makeSprings(Body<Real>& body, const BodyDef& def) {
+  const Asset& asset = *def.asset;
+  const std::size_t anchors = def.anchored ? asset.anchors.size() : 0;
+  body.springs.reserve(asset.springs.size() + anchors);
+  for (const AssetSpring& s : asset.springs) {
+    const Eigen::Vector3d rest = asset.positions[s.second] - asset.positions[s.first];
+    body.springs.push_back(makeSpring<Real>(s.first, s.second, s.area, rest.norm(), def.material, def.model));
+    body.springRest.push_back(rest);
+  }
+  body.anchorBegin = body.springs.size();
+  for (std::size_t a = 0; a < anchors; ++a) {
+    const AssetAnchor& anchor = asset.anchors[a];
+    // The far end mirrors the element beyond the tied point, so the gap opens there; only the element's own half is
+    // elastic, hence half the length.
+    const Eigen::Vector3d rest = 2 * (anchor.point - asset.positions[anchor.element]);
+    body.springs.push_back(makeSpring<Real>(anchor.element, anchor.element, anchor.area, 0.5 * rest.norm(),
+                                            def.material, def.model));
+    body.springRest.push_back(rest);
+  }
+  body.anchorsIntact = std::uint32_t(anchors);
+  body.intact.assign(body.springs.size(), 1);
+}
+
+/// Dashpots c = beta k with beta = 2 xi / omega_max: the damping ratio is xi at the highest frequency, less below it.
+template <class Real>
+void makeDashpots(Body<Real>& body) {
+  std::vector<ElementRates> rates(body.elementCount());
+  springRates(body, std::span(rates));
+  const double frequency2 = springBound(body, std::span<const ElementRates>(rates)).frequency2;
+  if (frequency2 <= 0) return;
+  const Real beta = Real(2 * body.material.springDamping / std::sqrt(frequency2));
+  for (Spring<Real>& s : body.springs) {
+    s.damping = beta * s.stiffness;
+    s.rotationalDamping = beta * s.rotational;
+  }
+}
+
+template <class Real>
+void indexSprings(Body<Real>& body) {
+  body.springOffsets.assign(body.elementCount() + 1, 0);
+  const auto each = [&](auto&& f) {
+    for (std::uint32_t s = 0; s < body.springs.size(); ++s) {
+      f(body.springs[s].first, s);
+      if (!body.isAnchor(s)) f(body.springs[s].second, s);
+    }
+  };
+  each([&](std::uint32_t i, std::uint32_t) { ++body.springOffsets[i + 1]; });
+  std::partial_sum(body.springOffsets.begin(), body.springOffsets.end(), body.springOffsets.begin());
+  body.springsOf.resize(body.springOffsets.back());
+  std::vector<std::uint32_t> fill(body.springOffsets.begin(), body.springOffsets.end() - 1);
+  each([&](std::uint32_t i, std::uint32_t s) { body.springsOf[fill[i]++] = s; });
+}
+
+/// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D of their own.
+template <class Real>
+void makePairs(Body<Real>& body) {
+  const std::size_t n = body.elementCount();
+  struct Pair {
+    std::uint32_t first, second;
+    Real range;
+  };
+  std::vector<Pair> list;
+  for (std::size_t s = 0; s < body.anchorBegin; ++s)
+    list.push_back({body.springs[s].first, body.springs[s].second, Real(2) * body.radius});
+  std::vector<std::vector<std::uint32_t>> joined(n);
+  for (const Pair& p : list) joined[p.first].push_back(p.second);
+
+  std::vector<Vec3<double>> points(body.restCentred.begin(), body.restCentred.end());
+  const std::vector<std::uint8_t> all(n, 1);
+  const double diameter = 2 * double(body.radius);
+  Grid<double> grid;
+  grid.build(points, all, diameter);
+  const Vec3<double> reach = Vec3<double>::Constant(diameter);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    grid.visitBox(points[i] - reach, points[i] + reach, [&](std::uint32_t j) {
+      const double distance = (points[j] - points[i]).norm();
+      if (j <= i || distance >= diameter) return;
+      if (std::find(joined[i].begin(), joined[i].end(), j) == joined[i].end()) list.push_back({i, j, Real(distance)});
+    });
+  }
+
+  std::vector<std::vector<PairIndex>> partners(n);
+  body.range.resize(list.size());
+  for (std::uint32_t p = 0; p < list.size(); ++p) {
+    body.range[p] = list[p].range;
+    partners[list[p].first].push_back({list[p].second, p});
+    partners[list[p].second].push_back({list[p].first, p});
+  }
+  body.pairOffsets.assign(1, 0);
+  for (auto& of : partners) {
+    std::sort(of.begin(), of.end(), [](const PairIndex& a, const PairIndex& b) { return a.partner < b.partner; });
+    body.pairs.insert(body.pairs.end(), of.begin(), of.end());
+    body.pairOffsets.push_back(std::uint32_t(body.pairs.size()));
+  }
+}
+
+template <class Real>
+void makeContact(Body<Real>& body) {
+  const Material& m = body.material;
+  body.radius = Real(body.asset->radius);
+  body.contactStiffness = m.contactStiffness * m.youngsModulus * body.asset->spacing();
+  const double meanMass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0) / double(body.elementCount());
+  body.contact.stiffness = Real(body.contactStiffness);
+  body.contact.damping = Real(dashpot(m.contactDamping, body.contactStiffness, 0.5 * meanMass));
+  body.contact.friction = body.model.coulombFriction ? Real(m.friction) : Real(-1);
+}
+
+template <class Real>
+void makeState(Body<Real>& body, const BodyDef& def) {
+  const std::size_t n = body.elementCount();
+  const Vec3<Real> zero = Vec3<Real>::Zero();
+  for (auto* v : {&body.displacement, &body.velocityCarry, &body.force, &body.torque, &body.dampingForce,
+                  &body.dampingTorque, &body.rest, &body.position})
+    v->assign(n, zero);
+  body.rotation.assign(n, Quat<Real>::Identity());
+  body.spin.assign(n, def.spin.cast<Real>());
+  body.velocity.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    body.velocity[i] = (def.velocity + def.spin.cross(body.turn * body.restCentred[i])).template cast<Real>();
+  body.alive.assign(n, 1);
+  body.load.assign(n, Real(0));
+  body.groundRange.assign(n, body.radius);
+  for (std::size_t a = body.anchorBegin; a < body.springs.size(); ++a)
+    body.groundRange[body.springs[a].first] = Real(kHeldByAnchor);
+  body.overloaded.reserve(body.springs.size());
+  body.overloadMode.reserve(body.springs.size());
+  body.crushing.reserve(n);
+  body.leaving.assign(n, 0);
+  body.springListed.assign(body.springs.size(), 0);
+  body.fragment.assign(n, 0);
+  body.crushEnergy.assign(n, std::numeric_limits<Real>::infinity());
+  for (std::size_t i = 0; i < def.crushEnergy.size(); ++i) body.crushEnergy[i] = Real(def.crushEnergy[i]);
+}
+
+}  // namespace
+
+template <class Real>
+Body<Real> makeBody(const BodyDef& def, std::uint32_t id) {
+  check(def);
+  Body<Real> body;
+  body.id = id;
+  body.asset = def.asset;
+  body.material = def.material;
+  body.model = def.model;
+  body.massDamping = def.massDamping;
+  makeElements(body, def);
+  makeSprings(body, def);
+  makeContact(body);
+  makeState(body, def);
+  turnRest(body);
+  makeDashpots(body);
+  indexSprings(body);
+  makePairs(body);
+  body.criterion = makeCriterion<Real>(def.material, def.model);
+  labelFragments(body);
+  return body;
+}
+
+template <class Real>
+void turnRest(Body<Real>& body) {
+  const Eigen::Matrix3d turn = body.turn.toRotationMatrix();
+  for (std::size_t i = 0; i < body.elementCount(); ++i)
+    body.rest[i] = (turn * body.restCentred[i]).template cast<Real>();
+  for (std::size_t s = 0; s < body.springs.size(); ++s)
+    body.springs[s].rest = (turn * body.springRest[s]).template cast<Real>();
+}
+
+template <class Real>
+void fitFrame(Body<Real>& body) {
+  if (body.anchorsIntact > 0) return;
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (!body.alive[i]) continue;
+    const Eigen::Vector4d q = body.rotation[i].coeffs().template cast<double>();
+    mean += body.mass[i] * (q.w() < 0 ? Eigen::Vector4d(-q) : q);
+    total += body.mass[i];
+  }
+  if (!(total > 0) || !(mean.norm() > 1e-3 * total)) return;  // nothing left, or no common rotation
+  const Eigen::Quaterniond step(Eigen::Vector4d(mean.normalized()));
+  const Eigen::Quaterniond turn = (step * body.turn).normalized();
+  const Eigen::Matrix3d old = body.turn.toRotationMatrix(), now = turn.toRotationMatrix();
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (body.alive[i])
+      shift += body.mass[i] * (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i]);
+  }
+  shift /= total;
+  const Quat<Real> back = Quat<Real>(step.conjugate().coeffs().template cast<Real>());
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    body.displacement[i] =
+        (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i] - shift).template cast<Real>();
+    body.rotation[i] = (body.rotation[i] * back).normalized();
+  }
+  body.origin += shift;
+  body.turn = turn;
+  turnRest(body);
+}
+
+template <class Real>
+std::uint32_t labelFragments(Body<Real>& body) {
+  std::vector<std::uint32_t>& root = body.fragment;
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::size_t s = 0; s < body.anchorBegin; ++s) {
+    if (!body.intact[s]) continue;
+    const std::uint32_t a = find(body.springs[s].first), b = find(body.springs[s].second);
+    if (a != b) root[std::max(a, b)] = std::min(a, b);
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < root.size(); ++i) {
+    root[i] = body.alive[i] ? find(i) : kNoElement;
+    if (root[i] == i) ++count;
+  }
+  return body.fragmentCount = count;
+}
+
+template struct Body<float>;
+template struct Body<double>;
+template Body<float> makeBody(const BodyDef&, std::uint32_t);
+template Body<double> makeBody(const BodyDef&, std::uint32_t);
+template void turnRest(Body<float>&);
+template void turnRest(Body<double>&);
+template void fitFrame(Body<float>&);
+template void fitFrame(Body<double>&);
+template std::uint32_t labelFragments(Body<float>&);
+template std::uint32_t labelFragments(Body<double>&);
+
+}  // namespace rubble::edem

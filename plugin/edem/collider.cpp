@@ -1,0 +1,109 @@
+#include "edem/collider.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rubble::edem {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+SurfacePoint nearestOnBox(const Eigen::Vector3d& half, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d outside = p.cwiseAbs() - half;
+  if ((outside.array() <= 0).all()) {
+    Eigen::Index axis = 0;
+    const double depth = outside.maxCoeff(&axis);
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    normal[axis] = p[axis] < 0 ? -1 : 1;
+    return {depth, normal};
+  }
+  const Eigen::Vector3d away = p - p.cwiseMax(-half).cwiseMin(half);
+  const double distance = away.norm();
+  return {distance, away / distance};
+}
+
+Eigen::Vector3d nearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return a + t * ab;
+}
+
+/// Nearest point of a convex polygon to a point above its plane.
+Eigen::Vector3d nearestOnFace(const Hull::Face& face, const Eigen::Vector3d& p) {
+  const std::size_t n = face.vertices.size();
+  bool over = true;
+  Eigen::Vector3d best = face.vertices[0];
+  double least = kInfinity;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d &a = face.vertices[i], &b = face.vertices[(i + 1) % n];
+    if (face.normal.cross(b - a).dot(p - a) >= 0) continue;
+    over = false;
+    const Eigen::Vector3d q = nearestOnSegment(a, b, p);
+    if ((p - q).squaredNorm() < least) {
+      least = (p - q).squaredNorm();
+      best = q;
+    }
+  }
+  return over ? Eigen::Vector3d(p - (face.normal.dot(p) - face.offset) * face.normal) : best;
+}
+
+SurfacePoint nearestOnHull(const Hull& hull, const Eigen::Vector3d& p) {
+  SurfacePoint inside{-kInfinity, Eigen::Vector3d::UnitY()};
+  double least = kInfinity;
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  for (const Hull::Face& face : hull.faces) {
+    const double above = face.normal.dot(p) - face.offset;
+    if (above > inside.distance) inside = {above, face.normal};
+    if (above <= 0) continue;
+    const Eigen::Vector3d q = nearestOnFace(face, p);
+    if ((p - q).squaredNorm() < least) {
+      least = (p - q).squaredNorm();
+      best = q;
+    }
+  }
+  if (inside.distance <= 0) return inside;
+  const double distance = std::sqrt(least);
+  if (!(distance > 0)) return inside;
+  return {distance, (p - best) / distance};
+}
+
+SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
+  switch (c.kind) {
+    case Collider::Kind::Plane: return {c.size.dot(p) - c.offset, c.size};
+    case Collider::Kind::Box: return nearestOnBox(c.size, p);
+    case Collider::Kind::Hull: return nearestOnHull(*c.hull, p);
+    case Collider::Kind::Sphere: break;
+  }
+  const double length = p.norm();
+  return {length - c.size.x(), length > 0 ? Eigen::Vector3d(p / length) : Eigen::Vector3d::UnitY()};
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d Collider::bounds() const {
+  Eigen::AlignedBox3d local;
+  switch (kind) {
+    case Kind::Plane:
+      return {Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity)};
+    case Kind::Sphere: local = {Eigen::Vector3d::Constant(-size.x()), Eigen::Vector3d::Constant(size.x())}; break;
+    case Kind::Box: local = {-size, size}; break;
+    case Kind::Hull:
+      for (const Hull::Face& face : hull->faces)
+        for (const Eigen::Vector3d& v : face.vertices) local.extend(v);
+      break;
+  }
+  const Eigen::Vector3d reach = place.linear().cwiseAbs() * (0.5 * local.sizes()) + Eigen::Vector3d::Constant(rounding);
+  const Eigen::Vector3d centre = place * local.center();
+  return {centre - reach, centre + reach};
+}
+
+SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point) {
+  SurfacePoint s = nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point);
+  s.distance -= collider.rounding;
+  s.normal = collider.place.linear() * s.normal;
+  return s;
+}
+
+}  // namespace rubble::edem

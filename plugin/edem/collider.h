@@ -1,0 +1,43 @@
+// The rigid surfaces that elements touch: plane, sphere, box, convex hull; signed distance in closed form.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "edem/types.h"
+
+namespace rubble::edem {
+
+/// A convex polyhedron as its faces.
+struct Hull {
+  struct Face {
+    Eigen::Vector3d normal;                 ///< outward, unit
+    double offset;                          ///< normal . x of the plane [m]
+    std::vector<Eigen::Vector3d> vertices;  ///< counter-clockwise seen from outside [m]
+  };
+  std::vector<Face> faces;
+};
+
+/// A surface in its own frame, rounded by `rounding`.
+struct Collider {
+  enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull };
+  Kind kind = Kind::Sphere;
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< half extents of a box; x is a sphere's radius; a plane's normal [m]
+  double offset = 0;                               ///< a plane's: normal . x [m]
+  double rounding = 0;                             ///< added all round, Bullet's collision margin of hulls [m]
+  std::shared_ptr<const Hull> hull;
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< in the frame of the rigid body
+
+  Eigen::AlignedBox3d bounds() const;  ///< in the frame of the rigid body; a plane's is infinite
+};
+
+/// Nearest point of a surface.
+struct SurfacePoint {
+  double distance;         ///< signed: negative inside [m]
+  Eigen::Vector3d normal;  ///< unit, out of the surface
+};
+
+/// Signed distance of `point` (in the frame of the rigid body) and the outward normal there.
+SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point);
+
+}  // namespace rubble::edem

@@ -1,0 +1,133 @@
+// The last stages of a substep: motion, and crushed elements leaving.
+#include <cmath>
+#include <limits>
+
+#include "edem/stages.h"
+
+namespace rubble::edem {
+namespace {
+
+/// v + dv with what the addition lost kept in `carry` (Kahan). In float, gravity's tiny kicks would else be rounded
+/// the same way hundreds of times in a row.
+template <class Real>
+Vec3<Real> addCompensated(const Vec3<Real>& v, const Vec3<Real>& dv, Vec3<Real>& carry) {
+  const Vec3<Real> wanted = dv + carry;
+  const Vec3<Real> sum = v + wanted;
+  carry = wanted - (sum - v);
+  return sum;
+}
+
+/// Rotation by w h of the unit quaternion q, exact for constant w to fifth order in |w| h; normalised.
+template <class Real>
+Quat<Real> rotated(const Quat<Real>& q, const Vec3<Real>& w, Real h) {
+  const Vec3<Real> half = (Real(0.5) * h) * w;
+  const Real a2 = half.squaredNorm();
+  const Real sine = Real(1) - a2 / Real(6) * (Real(1) - a2 / Real(20));  // sin(a)/a
+  const Real cosine = Real(1) - a2 / Real(2) * (Real(1) - a2 / Real(12));
+  Quat<Real> step;
+  step.vec() = sine * half;
+  step.w() = cosine;
+  return (step * q).normalized();
+}
+
+}  // namespace
+
+template <class Real>
+Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
+               std::span<const Vec3<Real>> listed, Books& books) {
+  const Real kickTime = Real(kick), stepTime = Real(step);
+  const Vec3<Real> fall = (kick * gravity).template cast<Real>();
+  Real furthest2 = 0;
+  double mass = 0, kinetic = 0, lost = 0, lostNext = 0;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero(), spinning = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (!body.alive[i]) continue;
+    const Vec3<Real> oldVelocity = body.velocity[i], oldSpin = body.spin[i];
+    body.velocity[i] = addCompensated<Real>(oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall,
+                                            body.velocityCarry[i]);
+    body.spin[i] = oldSpin + (kickTime * body.inverseInertia[i]) * body.torque[i];
+    const Vec3<Real> position = body.position[i];
+    body.displacement[i] += stepTime * body.velocity[i];
+    body.rotation[i] = rotated(body.rotation[i], body.spin[i], stepTime);
+    const Real moved2 = (body.rest[i] + body.displacement[i] - listed[i]).squaredNorm();
+    furthest2 = moved2 > furthest2 || !(moved2 == moved2) ? moved2 : furthest2;
+
+    const double m = body.mass[i], inertia = body.inertia[i];
+    const Eigen::Vector3d v0 = oldVelocity.template cast<double>(), v1 = body.velocity[i].template cast<double>();
+    const Eigen::Vector3d w0 = oldSpin.template cast<double>(), w1 = body.spin[i].template cast<double>();
+    const Eigen::Vector3d x = position.template cast<double>();
+    mass += m;
+    before += m * v0;
+    after += m * v1;
+    moment += m * x;
+    angular += x.cross(m * v1);
+    spinning += inertia * w1;
+    kinetic += 0.5 * (m * v0.dot(v1) + inertia * w0.dot(w1));
+    const Eigen::Vector3d f = body.dampingForce[i].template cast<double>();
+    const Eigen::Vector3d t = body.dampingTorque[i].template cast<double>();
+    lost += f.dot(v0) + t.dot(w0);
+    lostNext += f.dot(v1) + t.dot(w1);
+  }
+  const Eigen::Vector3d arm = body.origin - books.centre;
+  books.mass += mass;
+  books.kinetic += kinetic;
+  books.linear += after;
+  books.angular += arm.cross(after) + angular + spinning;
+  books.gravity.linear += kick * mass * gravity;
+  books.gravity.angular += kick * (arm * mass + moment).cross(gravity);
+  books.gravity.size += kick * mass * gravity.norm();
+  books.gravity.work.add(0.5 * kick * gravity.dot(before), 0.5 * kick * gravity.dot(after));
+  books.dissipated.add(0.5 * kick * lost, 0.5 * kick * lostNext);
+  return std::isfinite(kinetic) ? furthest2 : std::numeric_limits<Real>::quiet_NaN();
+}
+
+template <class Real>
+void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report) {
+  for (const std::uint32_t i : body.crushing) {
+    CrushedElement c;
+    c.body = body.id;
+    c.element = i;
+    c.position = body.worldPosition(i);
+    c.velocity = body.velocity[i].template cast<double>();
+    c.spin = body.spin[i].template cast<double>();
+    c.orientation = body.rotation[i].template cast<double>() * body.turn;
+    c.mass = body.mass[i];
+    c.inertia = body.inertia[i];
+    c.fractureEnergy = double(body.load[i]);
+    c.released = 0;
+    for (std::size_t k = brokenBegin; k < report.broken.size(); ++k) {
+      const BrokenSpring& b = report.broken[k];
+      if (b.body != body.id) continue;
+      const Spring<Real>& s = body.springs[b.spring];
+      if (s.first != i && s.second != i) continue;
+      const bool both = !body.isAnchor(b.spring) && body.leaving[s.first] && body.leaving[s.second];
+      c.released += both ? 0.5 * b.energy : b.energy;
+    }
+    report.crushed.push_back(c);
+  }
+  for (const std::uint32_t i : body.crushing) {
+    const double m = body.mass[i];
+    const Eigen::Vector3d v = body.velocity[i].template cast<double>(), w = body.spin[i].template cast<double>();
+    const double kinetic = 0.5 * (m * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
+    const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(m * v) + body.inertia[i] * w;
+    books.leftMass += m;
+    books.leftKinetic += kinetic;
+    books.leftLinear += m * v;
+    books.leftAngular += angular;
+    books.mass -= m;
+    books.kinetic -= kinetic;
+    books.linear -= m * v;
+    books.angular -= angular;
+    body.alive[i] = 0;
+    body.leaving[i] = 0;
+    ++body.crushedCount;
+  }
+}
+
+template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<float>>, Books&);
+template double integrate(Body<double>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<double>>, Books&);
+template void removeCrushed(Body<float>&, std::size_t, Books&, TickReport&);
+template void removeCrushed(Body<double>&, std::size_t, Books&, TickReport&);
+
+}  // namespace rubble::edem

@@ -1,0 +1,60 @@
+// Which elements may touch: candidate pairs within a body and between bodies, by a uniform grid (paper 4.1) with a skin, so that they
+// last several substeps. This is the plain reference; faster lists must give the same contacts.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "edem/body.h"
+#include "edem/grid.h"
+
+namespace rubble::edem {
+
+struct PairEntry {
+  std::uint32_t first;   ///< in the first body
+  std::uint32_t second;  ///< in the second body
+  std::uint32_t pair;    ///< into Body::range, or kNoPair
+};
+
+/// Candidates between two bodies, or within one (first == second).
+struct PairList {
+  std::uint32_t first, second;  ///< places in the solver's list of bodies
+  std::vector<PairEntry> entries;
+};
+
+/// Per body: the grid over its elements at the last listing.
+template <class Real>
+struct ElementGrid {
+  Grid<Real> grid;
+  std::vector<Vec3<Real>> listed;  ///< positions at the last listing, relative to the body's origin [m]
+  Eigen::AlignedBox3d bounds;      ///< of the listed centres, world [m]
+};
+
+template <class Real>
+class PairLists {
+ public:
+  /// Lists anew. `skin` is added to the contact distance; the lists hold until an element moved half of it [m].
+  void build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin);
+  /// A spring broke: its pair may touch from now on.
+  void addBroken(std::uint32_t body, const PairEntry& entry);
+
+  std::span<PairList> lists() { return m_lists; }
+  const ElementGrid<Real>& grid(std::size_t body) const { return m_grids[body]; }
+  double skin() const { return m_skin; }
+
+ private:
+  void listWithin(const Body<Real>& body, std::uint32_t place, PairList& list);
+  void listBetween(const Body<Real>& a, const Body<Real>& b, const ElementGrid<Real>& gridA, const ElementGrid<Real>& gridB,
+                   PairList& list);
+
+  double m_skin = 0;
+  std::vector<ElementGrid<Real>> m_grids;
+  std::vector<PairList> m_lists;      // m_lists[place] is within body `place`; those between bodies stand behind
+  std::vector<PairList> m_spare;      // lists whose memory is kept for the next build
+};
+
+extern template class PairLists<float>;
+extern template class PairLists<double>;
+
+}  // namespace rubble::edem

@@ -1,0 +1,395 @@
+#include "edem/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "edem/damping.h"
+#include "edem/pair_lists.h"
+#include "edem/prestress.h"
+#include "edem/rigid_contacts.h"
+#include "edem/stable_step.h"
+#include "rubble/error.h"
+
+namespace rubble::edem {
+namespace {
+
+/// Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
+constexpr double kSkinRadii = 0.5;
+/// An element may not pass more than this share of its radius in a substep, or thin things are missed.
+constexpr double kTravelShare = 0.25;
+/// Pairs nearer than this many contact distances count as touching when the substep is chosen.
+constexpr double kNearContact = 1.1;
+
+class Fnv {
+ public:
+  template <class T>
+  void add(std::span<const T> values) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    for (std::size_t i = 0; i < values.size_bytes(); ++i) m_state = (m_state ^ bytes[i]) * 1099511628211ull;
+  }
+  std::uint64_t value() const { return m_state; }
+
+ private:
+  std::uint64_t m_state = 14695981039346656037ull;
+};
+
+template <class Real>
+class SolverOf final : public Solver {
+ public:
+  explicit SolverOf(const SolverDef& def) : m_def(def) {}
+
+  std::uint32_t addBody(const BodyDef& def, const Eigen::Vector3d& gravity) override {
+    auto body = std::make_unique<Body<Real>>(makeBody<Real>(def, m_nextId));
+    const double step = m_def.substepSafety * bodyBound(*body).stableStep();
+    const double substeps = std::ceil(1.0 / 60 / step);
+    if (substeps > m_def.maxSubstepsPerFrame) {
+      char text[320];
+      std::snprintf(text, sizeof text,
+                    "material %s: stable substep is %.3g s, which is %.0f substeps in 1/60 s; max_substeps_per_frame is %d: raise "
+                    "it, or lower the material's youngsModulus, or use larger elements",
+                    def.material.name.c_str(), step, substeps, m_def.maxSubstepsPerFrame);
+      throw Error(text);
+    }
+    if (def.anchored && gravity.squaredNorm() > 0) prestress(*body, gravity);
+    beginSubstep(*body);
+    bookNew(*body);
+    m_bodies.push_back(std::move(body));
+    m_listsStale = true;
+    return m_nextId++;
+  }
+
+  void removeBody(std::uint32_t id) override {
+    const std::size_t place = placeOf(id);
+    bookLeaving(*m_bodies[place]);
+    m_bodies.erase(m_bodies.begin() + std::ptrdiff_t(place));
+    m_listsStale = true;
+  }
+
+  void tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) override;
+
+  const TickReport& report() const override { return m_report; }
+  const Books& books() const override { return m_books; }
+  const std::string& failure() const override { return m_failure; }
+
+  double stableStep() const override {
+    double step = std::numeric_limits<double>::infinity();
+    for (const auto& body : m_bodies) step = std::min(step, m_def.substepSafety * bodyBound(*body).stableStep());
+    return step;
+  }
+  bool anyAwake() const override {
+    return std::any_of(m_bodies.begin(), m_bodies.end(), [](const auto& b) { return !b->asleep; });
+  }
+
+  BodyView view(std::uint32_t id) const override {
+    const Body<Real>& b = of(id);
+    return {b.alive, b.intact, b.fragment, b.mass, b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep};
+  }
+  Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
+  Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {
+    return of(id).velocity[i].template cast<double>();
+  }
+  Eigen::Vector3d spin(std::uint32_t id, std::size_t i) const override { return of(id).spin[i].template cast<double>(); }
+  Eigen::Quaterniond orientation(std::uint32_t id, std::size_t i) const override {
+    const Body<Real>& b = of(id);
+    return b.rotation[i].template cast<double>() * b.turn;
+  }
+  Eigen::AlignedBox3d bounds(std::uint32_t id) const override {
+    const Body<Real>& b = of(id);
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < b.elementCount(); ++i)
+      if (b.alive[i]) box.extend(b.worldPosition(i));
+    if (box.isEmpty()) return box;
+    box.min().array() -= double(b.radius);
+    box.max().array() += double(b.radius);
+    return box;
+  }
+  double maxSpeed(std::uint32_t id) const override { return speedOf(of(id)); }
+  double radius(std::uint32_t id) const override { return double(of(id).radius); }
+  void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) const override;
+
+  void setAsleep(std::uint32_t id, bool asleep) override {
+    Body<Real>& body = *m_bodies[placeOf(id)];
+    if (body.asleep == asleep) return;
+    body.asleep = asleep;
+    m_listsStale = true;
+    if (asleep) bookSlept(body, m_books);
+  }
+
+  std::uint64_t hash() const override {
+    Fnv fnv;
+    for (const auto& b : m_bodies) {
+      fnv.add(std::span<const Vec3<Real>>(b->displacement));
+      fnv.add(std::span<const Vec3<Real>>(b->velocity));
+      fnv.add(std::span<const Vec3<Real>>(b->spin));
+      fnv.add(std::span<const Quat<Real>>(b->rotation));
+      fnv.add(std::span<const std::uint8_t>(b->alive));
+      fnv.add(std::span<const std::uint8_t>(b->intact));
+      fnv.add(std::span<const double>(b->origin.data(), 3));
+      fnv.add(std::span<const double>(b->turn.coeffs().data(), 4));
+    }
+    return fnv.value();
+  }
+
+ private:
+  std::size_t placeOf(std::uint32_t id) const {
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+      if (m_bodies[b]->id == id) return b;
+    throw Error("no destructible body has the id " + std::to_string(id));
+  }
+  const Body<Real>& of(std::uint32_t id) const { return *m_bodies[placeOf(id)]; }
+
+  RateBound bodyBound(const Body<Real>& body) const {
+    std::vector<ElementRates> rates(body.elementCount());
+    springRates(body, std::span(rates));
+    RateBound bound = springBound(body, std::span<const ElementRates>(rates));
+    // Any element may press another, or a rigid body, beside its springs.
+    for (std::size_t i = 0; i < body.elementCount(); ++i) {
+      ElementRates contact = rates[i];
+      contact.stiffness += body.contactStiffness / body.mass[i];
+      contact.damping += dashpot(body.material.contactDamping, body.contactStiffness, body.mass[i]) / body.mass[i];
+      bound.add(contact, {});
+    }
+    return bound;
+  }
+  static double speedOf(const Body<Real>& b) {
+    double fastest = 0;
+    for (std::size_t i = 0; i < b.elementCount(); ++i)
+      if (b.alive[i]) fastest = std::max(fastest, double(b.velocity[i].norm()) + double(b.radius) * double(b.spin[i].norm()));
+    return fastest;
+  }
+
+  void bookNew(const Body<Real>& body);
+  void bookLeaving(const Body<Real>& body);
+  void list();
+  int chooseSubsteps(double dt);
+  void substep(double kick, double step, const Eigen::Vector3d& gravity);
+  void closeTick(double dt);
+
+  SolverDef m_def;
+  std::uint32_t m_nextId = 0;
+  std::vector<std::unique_ptr<Body<Real>>> m_bodies;
+  PairLists<Real> m_lists;
+  RigidContacts<Real> m_rigid;
+  bool m_listsStale = true;
+  double m_lastStep = 0;  // of the positions; 0 before the first
+  std::vector<ElementRates> m_rates;
+  TickReport m_report;
+  Books m_books;
+  std::string m_failure;
+};
+
+/// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed afterwards.
+template <class Real>
+void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) {
+  m_report.broken.clear();
+  m_report.crushed.clear();
+  m_report.substeps = 0;
+  if (!m_failure.empty() || !(dt > 0)) return;
+  m_rigid.beginTick(proxies);
+  for (auto& body : m_bodies)
+    if (!body->asleep) beginSubstep(*body);
+  list();
+  const int substeps = chooseSubsteps(dt);
+  const double step = dt / substeps;
+  for (int s = 0; s < substeps && m_failure.empty(); ++s) {
+    // Between steps of two lengths the half steps are their mean apart.
+    const double kick = m_lastStep > 0 ? 0.5 * (m_lastStep + step) : step;
+    substep(kick, step, gravity);
+    m_lastStep = step;
+  }
+  m_report.substeps = substeps;
+  m_report.substep = step;
+  closeTick(dt);
+}
+
+template <class Real>
+void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gravity) {
+  m_books.closeStep();
+  for (auto& body : m_bodies)
+    if (!body->asleep) beginSubstep(*body);
+  if (m_listsStale) {
+    list();
+  } else if (m_rigid.expired(m_lists.skin())) {
+    m_rigid.build(m_bodies, m_lists);
+  }
+
+  m_books.elastic = 0;
+  for (auto& body : m_bodies)
+    if (!body->asleep) m_books.elastic += accumulateSprings(*body, kick, m_def.breaking, m_books);
+  for (PairList& l : m_lists.lists())
+    m_books.elastic += accumulateContacts(l, *m_bodies[l.first], *m_bodies[l.second]);
+  m_rigid.accumulate(m_bodies, kick, m_books);
+
+  const std::size_t brokenBegin = m_report.broken.size();
+  bool anyCrushed = false;
+  for (auto& body : m_bodies) {
+    if (body->asleep || !m_def.crushing || !m_def.breaking) continue;
+    markCrushed(*body);
+    anyCrushed = anyCrushed || !body->crushing.empty();
+  }
+  if (anyCrushed)
+    for (PairList& l : m_lists.lists()) releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], kick, m_books);
+  for (std::uint32_t b = 0; b < m_bodies.size(); ++b)
+    if (!m_bodies[b]->asleep) applyBreaks(*m_bodies[b], b, kick, m_lists, m_books, m_report);
+
+  m_books.mass = m_books.kinetic = 0;
+  m_books.linear = m_books.angular = Eigen::Vector3d::Zero();
+  for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
+    Body<Real>& body = *m_bodies[b];
+    if (body.asleep) {
+      for (std::size_t i = 0; i < body.elementCount(); ++i) m_books.mass += body.alive[i] ? body.mass[i] : 0;
+      continue;
+    }
+    const Real moved2 =
+        integrate(body, kick, step, gravity, std::span<const Vec3<Real>>(m_lists.grid(b).listed), m_books);
+    if (!std::isfinite(moved2)) m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
+    m_listsStale = m_listsStale || !(moved2 <= Real(0.25 * m_lists.skin() * m_lists.skin()));
+  }
+  m_rigid.bookSecondHalf(m_bodies, kick, m_books);
+  m_rigid.integrate(kick, step);
+  for (auto& body : m_bodies)
+    if (!body->crushing.empty()) removeCrushed(*body, brokenBegin, m_books, m_report);
+}
+
+template <class Real>
+void SolverOf<Real>::list() {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& body : m_bodies) radius = std::min(radius, double(body->radius));
+  m_lists.build(m_bodies, m_bodies.empty() ? 0 : kSkinRadii * radius);
+  m_rigid.build(m_bodies, m_lists);
+  m_listsStale = false;
+}
+
+template <class Real>
+int SolverOf<Real>::chooseSubsteps(double dt) {
+  double step = dt, speed = m_rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<ElementRates>> rates(m_bodies.size());
+  for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
+    const Body<Real>& body = *m_bodies[b];
+    rates[b].resize(body.elementCount());
+    if (body.asleep) continue;
+    springRates(body, std::span(rates[b]));
+    m_rigid.addRates(body, b, m_lastStep > 0 ? m_lastStep : step, rates[b]);
+    speed = std::max(speed, speedOf(body));
+    radius = std::min(radius, double(body.radius));
+  }
+  struct Touching {
+    std::uint32_t a, b;
+    PairEntry entry;
+  };
+  std::vector<Touching> touching;
+  for (const PairList& l : m_lists.lists()) {
+    const Body<Real>&a = *m_bodies[l.first], &b = *m_bodies[l.second];
+    const Vec3<Real> offset = (b.origin - a.origin).template cast<Real>();
+    const Real near = Real(kNearContact) * (a.radius + b.radius);
+    for (const PairEntry& e : l.entries) {
+      if (!a.alive[e.first] || !b.alive[e.second]) continue;
+      if ((b.position[e.second] - a.position[e.first] + offset).squaredNorm() > near * near) continue;
+      touching.push_back({l.first, l.second, e});
+      const auto add = [&](const Body<Real>& body, std::uint32_t place, std::uint32_t i) {
+        rates[place][i].stiffness += body.contactStiffness / body.mass[i];
+        rates[place][i].damping += double(body.contact.damping) / body.mass[i];
+      };
+      add(a, l.first, e.first);
+      add(b, l.second, e.second);
+    }
+  }
+  RateBound bound;
+  for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
+    if (m_bodies[b]->asleep) continue;
+    const RateBound own = springBound(*m_bodies[b], std::span<const ElementRates>(rates[b]));
+    bound.frequency2 = std::max(bound.frequency2, own.frequency2);
+    bound.damping = std::max(bound.damping, own.damping);
+    for (const ElementRates& r : rates[b]) bound.add(r, {});
+  }
+  for (const Touching& t : touching) bound.add(rates[t.a][t.entry.first], rates[t.b][t.entry.second]);
+  step = std::min(step, m_def.substepSafety * bound.stableStep());
+  if (speed > 0 && std::isfinite(radius)) step = std::min(step, kTravelShare * radius / speed);
+  const double limit = std::max(1.0, std::ceil(dt * 60 * m_def.maxSubstepsPerFrame));
+  return int(std::clamp(std::ceil(dt / step * (1 - 1e-9)), 1.0, limit));
+}
+
+template <class Real>
+void SolverOf<Real>::closeTick(double dt) {
+  std::vector<std::uint8_t> changed;
+  for (auto& body : m_bodies) {
+    if (body->asleep) continue;
+    const bool broke = std::any_of(m_report.broken.begin(), m_report.broken.end(),
+                                   [&](const BrokenSpring& s) { return s.body == body->id; });
+    if (broke) labelFragments(*body);
+    if (body->massDamping > 0) dampDeformation(*body, dt, m_books);
+    fitFrame(*body);
+    // The frame may have moved, and listed positions are relative to it.
+    m_listsStale = true;
+  }
+}
+
+template <class Real>
+void SolverOf<Real>::bookNew(const Body<Real>& body) {
+  Books probe = m_books;
+  const bool first = m_bodies.empty() && m_books.initialMass == 0;
+  if (first) m_books.centre = body.origin;
+  double mass = 0, kinetic = 0, size = 0;
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    const Eigen::Vector3d v = body.velocity[i].template cast<double>(), w = body.spin[i].template cast<double>();
+    const double m = body.mass[i];
+    mass += m;
+    kinetic += 0.5 * (m * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
+    size += m * v.norm();
+    linear += m * v;
+    angular += (body.worldPosition(i) - m_books.centre).cross(m * v) + body.inertia[i] * w;
+  }
+  Body<Real> copy = body;
+  const double elastic = accumulateSprings(copy, 0, false, probe);
+  m_books.initialMass += mass;
+  m_books.initialMomentumSize += size;
+  m_books.initialLinear += linear;
+  m_books.initialAngular += angular;
+  m_books.initialEnergy += kinetic + elastic;
+  m_books.diagonal = std::max(m_books.diagonal, body.asset->diagonal());
+  m_books.mass += mass;
+  m_books.kinetic += kinetic;
+  m_books.elastic += elastic;
+  m_books.linear += linear;
+  m_books.angular += angular;
+}
+
+template <class Real>
+void SolverOf<Real>::bookLeaving(const Body<Real>& body) {
+  Books probe = m_books;
+  probe.mass = probe.kinetic = 0;
+  probe.linear = probe.angular = Eigen::Vector3d::Zero();
+  Body<Real> copy = body;
+  beginSubstep(copy);
+  const double elastic = accumulateSprings(copy, 0, false, probe);
+  integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<Real>>(copy.position), probe);
+  m_books.leftMass += probe.mass;
+  m_books.leftKinetic += probe.kinetic;
+  m_books.leftElastic += elastic;
+  m_books.leftLinear += probe.linear;
+  m_books.leftAngular += probe.angular;
+  m_books.mass -= probe.mass;
+  m_books.kinetic -= probe.kinetic;
+  m_books.elastic -= elastic;
+  m_books.linear -= probe.linear;
+  m_books.angular -= probe.angular;
+}
+
+template <class Real>
+void SolverOf<Real>::elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) const {
+  const Body<Real>& body = of(id);
+  out.clear();
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i] && box.contains(body.worldPosition(i))) out.push_back(i);
+}
+
+}  // namespace
+
+std::unique_ptr<Solver> Solver::make(Precision precision, const SolverDef& def) {
+  if (precision == Precision::Double) return std::make_unique<SolverOf<double>>(def);
+  return std::make_unique<SolverOf<float>>(def);
+}
+
+}  // namespace rubble::edem

@@ -1,0 +1,56 @@
+#include "edem/stable_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rubble::edem {
+
+template <class Real>
+void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
+  std::fill(rates.begin(), rates.end(), ElementRates{});
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    if (!body.intact[s]) continue;
+    const Spring<Real>& spring = body.springs[s];
+    const double quarter = 0.25 * double(spring.rest.squaredNorm());
+    const auto add = [&](std::uint32_t i) {
+      const double m = body.mass[i], inertia = body.inertia[i];
+      rates[i].stiffness += double(spring.stiffness) / m +
+                            (double(spring.stiffness) * quarter + double(spring.rotational)) / inertia;
+      rates[i].damping += double(spring.damping) / m +
+                          (double(spring.damping) * quarter + double(spring.rotationalDamping)) / inertia;
+    };
+    add(spring.first);
+    if (!body.isAnchor(s)) add(spring.second);
+  }
+}
+
+void RateBound::add(const ElementRates& a, const ElementRates& b) {
+  frequency2 = std::max(frequency2, a.stiffness + b.stiffness);
+  damping = std::max(damping, a.damping + b.damping);
+}
+
+double RateBound::stableStep() const {
+  if (frequency2 <= 0) return std::numeric_limits<double>::infinity();
+  const double omega = std::sqrt(frequency2);
+  const double xi = damping / (2 * omega);
+  return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
+}
+
+template <class Real>
+RateBound springBound(const Body<Real>& body, std::span<const ElementRates> rates) {
+  RateBound bound;
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    if (!body.intact[s]) continue;
+    const Spring<Real>& spring = body.springs[s];
+    bound.add(rates[spring.first], body.isAnchor(s) ? ElementRates{} : rates[spring.second]);
+  }
+  return bound;
+}
+
+template void springRates(const Body<float>&, std::span<ElementRates>);
+template void springRates(const Body<double>&, std::span<ElementRates>);
+template RateBound springBound(const Body<float>&, std::span<const ElementRates>);
+template RateBound springBound(const Body<double>&, std::span<const ElementRates>);
+
+}  // namespace rubble::edem

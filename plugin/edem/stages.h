@@ -1,0 +1,74 @@
+// The stages of one substep, in their order. Each is a free function on plain arrays; solver.cpp calls them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "edem/body.h"
+#include "edem/books.h"
+#include "edem/pair_lists.h"
+#include "rubble/events.h"
+
+namespace rubble::edem {
+
+struct BrokenSpring {
+  std::uint32_t body, spring;
+  BreakMode mode;
+  double energy;             ///< released [J]
+  Eigen::Vector3d position;  ///< [m]
+};
+
+/// All that crushing needs to know of an element when it leaves.
+struct CrushedElement {
+  std::uint32_t body, element;
+  Eigen::Vector3d position, velocity, spin;
+  Eigen::Quaterniond orientation;
+  double mass, inertia;
+  double fractureEnergy;  ///< W_I, eq. (3) [J]
+  double released;        ///< its share of what its springs released when it crushed, each spring counted once [J]
+};
+
+/// What one tick did, besides moving things.
+struct TickReport {
+  int substeps = 0;
+  double substep = 0;  ///< h [s]
+  std::vector<BrokenSpring> broken;
+  std::vector<CrushedElement> crushed;
+};
+
+/// Sets forces, loads and overload lists to nothing and refreshes positions.
+template <class Real>
+void beginSubstep(Body<Real>& body);
+
+/// Springs: force, torque, load W_I (eq. 3) and which springs are over their limit (decides, changes nothing). `kick` is the time
+/// over which the forces will act [s]. Returns the elastic energy [J].
+template <class Real>
+double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books);
+
+/// Element contacts of one list (paper 3.1.2), of one body or two. Returns their elastic energy [J].
+template <class Real>
+double accumulateContacts(const PairList& list, Body<Real>& a, Body<Real>& b);
+
+/// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to the overloaded ones.
+template <class Real>
+void markCrushed(Body<Real>& body);
+
+/// Takes the contacts of leaving elements out of this substep, as applyBreaks does with springs.
+template <class Real>
+void releaseContacts(const PairList& list, Body<Real>& a, Body<Real>& b, double kick, Books& books);
+
+/// Takes the overloaded springs out: their force of this substep, their place in the graph, their energy into books.fracture.
+template <class Real>
+void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<Real>& lists, Books& books, TickReport& report);
+
+/// Symplectic Euler (eq. 1, 2): velocities over `kick`, then positions over `step` [s]. Adds mass, momentum and kinetic energy of
+/// the body to the books' state. Returns the largest squared distance from `listed` [m^2], NaN if anything is not finite.
+template <class Real>
+Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
+               std::span<const Vec3<Real>> listed, Books& books);
+
+/// Leaving elements leave, with their share of the energy of report.broken[brokenBegin..].
+template <class Real>
+void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report);
+
+}  // namespace rubble::edem

@@ -1,0 +1,101 @@
+// What cooking a closed surface gives: elements, springs, anchors and cell meshes. Immutable and shared by any
+// number of bodies; the state of a body is elsewhere. Plain arrays, SI units, in the mesh's own frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rubble {
+
+/// Marks "no element": outside of the solid, or an unused place in a list of fixed length.
+inline constexpr std::uint32_t kNoElement = 0xffffffffu;
+
+/// A pore spring's place: the two elements whose clipped Voronoi cells share a face.
+struct AssetSpring {
+  std::uint32_t first;   ///< element I, first < second
+  std::uint32_t second;  ///< element K
+  double area;           ///< area of the shared clipped face [m^2]
+};
+
+/// Ties an element to a fixed point (the world, or a Bullet body) by a spring over the face `area`.
+struct AssetAnchor {
+  std::uint32_t element;
+  double area;            ///< area of the cell's outer face at the anchor [m^2]
+  Eigen::Vector3d point;  ///< the tied point: centroid of that face [m]
+};
+
+/// A place where up to four cells meet. A mesh vertex touches one cell, a mesh edge cut by a bisector two, a triangle
+/// cut by a Voronoi edge three, a Voronoi vertex four; unused places hold kNoElement and stand last.
+struct CellVertex {
+  Eigen::Vector3f position;  ///< at rest [m]
+  std::array<std::uint32_t, 4> elements;
+};
+
+/// One corner of a drawn triangle: the copy of a CellVertex that belongs to one cell.
+struct CellCorner {
+  std::uint32_t vertex;    ///< into Asset::vertices
+  std::uint32_t element;   ///< the cell this copy belongs to; one of vertices[vertex].elements
+  Eigen::Vector3f normal;  ///< unit normal at rest, out of the cell; the mesh's own on outer faces
+};
+
+/// A face of a cell: one per Voronoi face inside the solid, and one per patch of the solid's surface.
+struct CellFace {
+  std::uint32_t neighbour;   ///< the element on the other side, or kNoElement for a patch of the surface
+  float area;                ///< [m^2]
+  Eigen::Vector3f normal;    ///< unit, out of the cell
+  Eigen::Vector3f centroid;  ///< at rest [m]
+};
+
+/// The mesh of one element. Triangles [firstTriangle, firstTriangle + outerTriangles) lie on the solid's surface, the
+/// innerTriangles behind them on faces towards other cells.
+struct Cell {
+  std::uint32_t firstTriangle;
+  std::uint32_t outerTriangles;
+  std::uint32_t innerTriangles;
+  std::uint32_t firstFace;
+  std::uint32_t faceCount;
+};
+
+struct Asset {
+  // Elements: arrays of length n.
+  double radius = 0;                       ///< r of every element [m]
+  std::vector<Eigen::Vector3d> positions;  ///< centres at rest [m] (n x 3)
+  std::vector<double> volumes;             ///< of the clipped Voronoi cells [m^3]; they add up to the solid's
+  std::vector<double> gyrations;           ///< a third of the trace of the cell's inertia about its centroid, per kilogram [m^2]
+
+  std::vector<AssetSpring> springs;  ///< sorted by (first, second)
+  std::vector<AssetAnchor> anchors;  ///< sorted by element
+
+  // Cell meshes.
+  std::vector<CellVertex> vertices;
+  std::vector<CellCorner> corners;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< into corners; counter-clockwise seen from outside the cell
+  std::vector<CellFace> faces;                          ///< grouped by cell
+  std::vector<Cell> cells;                              ///< one an element (n)
+
+  std::size_t elementCount() const { return positions.size(); }
+  double volume() const;  ///< of the solid [m^3]
+  /// Mean element spacing h = (V / n)^(1/3) [m]; the h of the material's contact stiffness k_c = factor E h.
+  double spacing() const;
+  Eigen::AlignedBox3d bounds() const;  ///< of the cell vertices [m]
+  double diagonal() const;             ///< of the bounds [m]
+
+  /// Faces of one cell.
+  std::span<const CellFace> cellFaces(std::size_t element) const;
+
+  /// Throws rubble::Error when a count, an index or a number is impossible. `load` has called it already.
+  void validate() const;
+};
+
+/// Writes a versioned little-endian file with sizes and a checksum; the file appears whole or not at all.
+void save(const Asset& asset, const std::filesystem::path& file);
+/// Reads such a file and trusts nothing in it. Throws rubble::Error naming the file and what is wrong with it.
+Asset load(const std::filesystem::path& file);
+
+}  // namespace rubble

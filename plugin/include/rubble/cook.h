@@ -1,0 +1,53 @@
+// Closed triangle mesh -> Asset: packing, Delaunay, clipped Voronoi cells, springs. Needs rubble::cook (CGAL,
+// GPL); an application that loads cooked assets does not.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rubble/asset.h"
+#include "rubble/error.h"
+
+namespace rubble {
+
+/// A closed, outward-oriented triangle mesh.
+struct SurfaceMesh {
+  std::vector<Eigen::Vector3d> vertices;                ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+};
+
+/// A box with the given full edge lengths [m] about `centre`; 8 vertices, 12 triangles.
+SurfaceMesh boxMesh(const Eigen::Vector3d& size, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero());
+
+struct CookOptions {
+  /// Number of elements wanted (1 to 10,000,000). The cook makes exactly as many, or throws saying what fits.
+  std::size_t elements = 2048;
+  /// Radius of the elements [m]. 0: chosen so that the spheres fill `fill` of the solid, or less, with a
+  /// warning, where so many of that size do not fit (thin walls, few elements).
+  double radius = 0;
+  /// Share of the solid that the spheres fill when `radius` is 0 (0.3 to 0.6; the paper's wall has 0.53).
+  double fill = 0.48;
+  /// Seed of the random start and of the Voronoi sites' jitter. The same seed gives the same bytes.
+  std::uint64_t seed = 1;
+  /// Relaxation ends when the deepest overlap is below this share of the diameter 2 r, or after
+  /// maxIterations.
+  double maxOverlap = 0.01;
+  int maxIterations = 400;
+  /// A spring needs a shared face of at least this share of h^2, h the mean spacing. Smaller faces are
+  /// slivers.
+  double minFaceArea = 0.02;
+  /// Surface whose outward normal points along this direction (within 10 degrees) and which lies within
+  /// anchorBand of the solid's furthest point in it is tied to the world. Unset: no anchors.
+  std::optional<Eigen::Vector3d> anchorDirection;
+  double anchorBand = 1e-6;  ///< [m]
+};
+
+/// Cooks a mesh. Throws rubble::Error for meshes that are not closed, not oriented, empty, not finite or that
+/// pass through themselves, and when the elements wanted do not fit.
+Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
+           const LogFunction& log = {});
+
+}  // namespace rubble

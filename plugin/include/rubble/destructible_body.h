@@ -1,0 +1,51 @@
+// One destructible object in a Bullet world.
+#pragma once
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <memory>
+#include <span>
+
+#include "rubble/destruction.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+/// Bullet sees a body of true mass that it never moves itself: shape and motion are the elements'. Its Bullet transform stays
+/// the identity; ask poses() for where the elements are. Made by Destruction::addBody only.
+class DestructibleBody : public btRigidBody {
+ public:
+  ~DestructibleBody() override;
+
+  /// Downcast as Bullet's own upcast functions do; null for other objects.
+  static DestructibleBody* upcast(btCollisionObject* object);
+  static const DestructibleBody* upcast(const btCollisionObject* object);
+
+  std::uint32_t id() const;  ///< index in Destruction::bodies() order of adding; never reused
+  const std::shared_ptr<const Asset>& asset() const;
+  const Material& material() const;
+  const Model& model() const;
+  /// Poses of all elements (n), for drawing.
+  void poses(std::span<ElementPose> out) const;
+  /// 1 for unbroken (springs, then anchors).
+  std::span<const std::uint8_t> springsIntact() const;
+  std::span<const std::uint8_t> elementsAlive() const;
+  /// Connected component of each element: the lowest element of its fragment; kNoElement for crushed ones.
+  std::span<const std::uint32_t> fragments() const;
+  /// Sum over the living elements: mass [kg], momentum.
+  double elementMass() const;
+  btVector3 linearMomentum() const;
+  bool isAsleep() const;
+
+  struct Impl;
+  Impl& impl() { return *m_impl; }
+  const Impl& impl() const { return *m_impl; }
+
+ private:
+  friend class Destruction;
+  DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> m_impl;
+};
+
+RUBBLE_ABI_END
+}  // namespace rubble

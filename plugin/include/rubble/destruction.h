@@ -1,0 +1,119 @@
+// Destructible bodies in a Bullet world. Four calls are all an application needs: construct a Destruction beside the
+// world, addBody, stepSimulation as always, takeEvents. Nothing of Bullet is subclassed by the application, no
+// tick callback is taken, and nothing here needs GL or CGAL.
+#pragma once
+
+#include <BulletDynamics/Dynamics/btActionInterface.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "rubble/abi.h"
+#include "rubble/asset.h"
+#include "rubble/debris.h"
+#include "rubble/error.h"
+#include "rubble/events.h"
+#include "rubble/ledger.h"
+#include "rubble/material.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+class DestructibleBody;
+
+struct DestructionDef {
+  Precision precision = Precision::Float;  ///< of the elements' state
+  /// Upper limit on substeps in 1/60 s; a body that needs more is refused when it is added.
+  int maxSubstepsPerFrame = 20000;
+  /// Share of the stable substep that is used, 0 to 1.
+  double substepSafety = 0.9;
+  bool debris = true;             ///< false: crushed elements vanish into dust events and booked mass, no particles are kept
+  std::uint32_t maxDebris = 100000;  ///< budget of live pieces; beyond it the oldest resting one is removed
+  std::uint32_t maxEvents = 1u << 20;
+  bool sleep = true;              ///< bodies at rest are put to sleep by Bullet's own rules
+  bool breaking = true;           ///< false: springs never break (tests of stability)
+  bool crushing = true;           ///< false: elements never crush
+  std::uint64_t seed = 1;         ///< of the debris sizes
+  LogFunction log;
+};
+
+struct DestructibleBodyDef {
+  std::shared_ptr<const Asset> asset;
+  Material material;
+  Model model;
+  btTransform transform = btTransform::getIdentity();  ///< of the asset's frame
+  btVector3 velocity = btVector3(0, 0, 0);             ///< of the centre of mass [m/s]
+  btVector3 spin = btVector3(0, 0, 0);                 ///< [rad/s]
+  double massDamping = 0;  ///< decay rate of the deformation velocity [1/s]; the rigid motion is not damped
+  /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's gravity, so that it
+  /// stands still from the first step.
+  bool anchored = true;
+  int collisionGroup = btBroadphaseProxy::DefaultFilter;
+  int collisionMask = btBroadphaseProxy::AllFilter;
+};
+
+/// Where an element is now; the layout the renderer uploads.
+struct ElementPose {
+  Eigen::Vector3f position;  ///< [m]
+  float alive;               ///< 1, or 0 when crushed
+  Eigen::Vector4f rotation;  ///< unit quaternion x y z w
+};
+
+struct DestructionCounts {
+  std::uint32_t elements = 0, crushed = 0, awake = 0;
+  std::uint32_t springs = 0, springsBroken = 0;
+  std::uint32_t fragments = 0;
+  std::uint32_t debrisAlive = 0, debrisSpawned = 0, debrisRemoved = 0;
+};
+
+/// Milliseconds of wall time since takeTimes.
+struct DestructionTimes {
+  double edem = 0, neighbours = 0, fracture = 0, debris = 0;
+};
+
+/// All destructible bodies of one world. Construct after the world, destroy before it. Not copyable.
+class Destruction : public btActionInterface {
+ public:
+  explicit Destruction(btDiscreteDynamicsWorld& world, const DestructionDef& def = {});
+  ~Destruction() override;
+  Destruction(const Destruction&) = delete;
+  Destruction& operator=(const Destruction&) = delete;
+
+  /// Makes a body and puts it into the world. Throws rubble::Error for a bad definition, or when its stable substep would
+  /// need more than maxSubstepsPerFrame. The world's usual teardown (remove and delete every object) may delete it.
+  DestructibleBody* addBody(const DestructibleBodyDef& def);
+  void removeBody(DestructibleBody* body);
+  std::span<DestructibleBody* const> bodies() const;
+
+  /// What happened since the last call, over any number of ticks. Valid until the next call.
+  const Events& takeEvents();
+  /// Balances at the end of the last tick.
+  const Ledger& ledger() const;
+  std::span<const DebrisPiece> debris() const;
+  DestructionCounts counts() const;
+  DestructionTimes takeTimes();
+  /// Stable substep of the stiffest body now [s], and the substeps of the last tick.
+  double stableSubstep() const;
+  int lastSubsteps() const;
+  /// FNV-1a over the bits of elements and springs of all bodies, and of the debris.
+  std::uint64_t hash() const;
+  std::uint64_t debrisHash() const;
+
+  // btActionInterface: Bullet calls these.
+  void updateAction(btCollisionWorld* world, btScalar dt) override;
+  void debugDraw(btIDebugDraw* drawer) override;
+
+  struct Impl;
+  Impl& impl() { return *m_impl; }
+
+ private:
+  std::unique_ptr<Impl> m_impl;
+};
+
+RUBBLE_ABI_END
+}  // namespace rubble
+
+#include "rubble/destructible_body.h"

@@ -1,0 +1,56 @@
+// Offscreen target of headless runs.
+#include <algorithm>
+#include <array>
+
+#include "render/gl_object.h"
+#include "rubble/render.h"
+
+namespace rubble {
+
+struct Framebuffer::Impl {
+  int width, height;
+  render::TextureName colour, depth;
+  render::FramebufferName framebuffer;
+};
+
+Framebuffer::Framebuffer(int width, int height) : m_impl(std::make_unique<Impl>()) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (width < 1 || height < 1 || width > most || height > most) {
+    throw Error("Framebuffer: " + std::to_string(width) + " x " + std::to_string(height) + " pixels, 1 to " +
+                std::to_string(most) + " allowed");
+  }
+  m_impl->width = width;
+  m_impl->height = height;
+  m_impl->colour = render::makeTexture2d({GL_RGBA8, width, height});
+  m_impl->depth = render::makeTexture2d({GL_DEPTH_COMPONENT24, width, height});
+  m_impl->framebuffer =
+      render::makeFramebuffer("a picture", std::array{m_impl->colour.id()}, m_impl->depth.id(), 1);
+}
+
+Framebuffer::~Framebuffer() = default;
+Framebuffer::Framebuffer(Framebuffer&&) noexcept = default;
+Framebuffer& Framebuffer::operator=(Framebuffer&&) noexcept = default;
+
+FrameTarget Framebuffer::target() const {
+  return {m_impl->framebuffer.id(), m_impl->width, m_impl->height};
+}
+
+Image Framebuffer::readPixels() const {
+  Image image{m_impl->width, m_impl->height, {}};
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image.width);
+  image.pixels.resize(row * static_cast<std::size_t>(image.height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, m_impl->framebuffer.id());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  render::checkGl("reading a picture");
+  // OpenGL's first row is the lowest.
+  const auto rowAt = [&](int y) { return image.pixels.begin() + static_cast<std::ptrdiff_t>(row) * y; };
+  for (int y = 0; y < image.height / 2; ++y) {
+    std::swap_ranges(rowAt(y), rowAt(y + 1), rowAt(image.height - 1 - y));
+  }
+  return image;
+}
+
+}  // namespace rubble

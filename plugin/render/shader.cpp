@@ -1,0 +1,89 @@
+#include "render/shader.h"
+
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "rubble/error.h"
+
+namespace rubble::render {
+namespace {
+
+constexpr int kMaxIncludeDepth = 8;
+
+void splice(const std::string& directory, const std::string& file, int depth, std::string& out) {
+  if (depth > kMaxIncludeDepth) throw Error("shader " + file + ": includes nested too deep");
+  std::ifstream stream(directory + "/" + file);
+  if (!stream) throw Error("shader " + file + ": cannot be read from " + directory);
+  const std::string key = "#include \"";
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (line.rfind(key, 0) != 0) {
+      out += line + "\n";
+      continue;
+    }
+    const std::size_t end = line.find('"', key.size());
+    if (end == std::string::npos)
+      throw Error("shader " + file + ": line " + std::to_string(number) + ": unclosed #include");
+    splice(directory, line.substr(key.size(), end - key.size()), depth + 1, out);
+    out += "#line " + std::to_string(number + 1) + "\n";
+  }
+}
+
+std::string shaderLog(GLuint shader) {
+  GLint length = 0;
+  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  if (length > 0) glGetShaderInfoLog(shader, length, nullptr, log.data());
+  return log;
+}
+
+std::string programLog(GLuint program) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  if (length > 0) glGetProgramInfoLog(program, length, nullptr, log.data());
+  return log;
+}
+
+ShaderName compile(const std::string& directory, const Stage& stage) {
+  const std::string text =
+      "#version 430 core\n" + std::string(stage.defines) + "#line 1\n" + readShader(directory, stage.file);
+  ShaderName shader(glCreateShader(stage.type));
+  if (shader.id() == 0)
+    throw Error(std::string("shader ") + stage.file + ": this context cannot make such a shader");
+  const char* source = text.c_str();
+  glShaderSource(shader.id(), 1, &source, nullptr);
+  glCompileShader(shader.id());
+  GLint ok = GL_FALSE;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &ok);
+  if (ok != GL_TRUE) throw Error(std::string("shader ") + stage.file + ": " + shaderLog(shader.id()));
+  return shader;
+}
+
+}  // namespace
+
+std::string readShader(const std::string& shaderDirectory, const std::string& file) {
+  std::string text;
+  splice(shaderDirectory, file, 0, text);
+  return text;
+}
+
+ProgramName makeProgram(const std::string& shaderDirectory, std::initializer_list<Stage> stages) {
+  ProgramName program(glCreateProgram());
+  std::vector<ShaderName> shaders;
+  std::string names;
+  for (const Stage& stage : stages) {
+    shaders.push_back(compile(shaderDirectory, stage));
+    glAttachShader(program.id(), shaders.back().id());
+    names += std::string(names.empty() ? "" : ", ") + stage.file;
+  }
+  glLinkProgram(program.id());
+  for (const ShaderName& shader : shaders) glDetachShader(program.id(), shader.id());
+  GLint ok = GL_FALSE;
+  glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
+  if (ok != GL_TRUE) throw Error("shaders " + names + ": " + programLog(program.id()));
+  return program;
+}
+
+}  // namespace rubble::render

@@ -1,0 +1,24 @@
+// Shader files -> programs. `#include "shared/draw.h"` is spliced in, relative to the shader directory.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "render/gl_object.h"
+
+namespace rubble::render {
+
+struct Stage {
+  GLenum type;
+  const char* file;          ///< relative to the shader directory
+  const char* defines = "";  ///< lines put behind #version
+};
+
+/// Compiles and links. Throws rubble::Error with file name and the driver's log.
+ProgramName makeProgram(const std::string& shaderDirectory, std::initializer_list<Stage> stages);
+
+/// Text of a shader file with its includes spliced in. Throws rubble::Error for a missing file or includes
+/// nested too deep.
+std::string readShader(const std::string& shaderDirectory, const std::string& file);
+
+}  // namespace rubble::render

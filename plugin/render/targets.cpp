@@ -1,0 +1,71 @@
+#include "render/targets.h"
+
+#include <array>
+
+namespace rubble::render {
+namespace {
+
+constexpr GLenum kColourFormat = GL_RGBA16F;  // light, before the tone curve
+constexpr GLenum kDepthFormat = GL_DEPTH_COMPONENT32F;
+constexpr GLenum kShadowFormat = GL_DEPTH_COMPONENT24;
+
+}  // namespace
+
+ShadowMap::ShadowMap(int size) : m_size(size) {
+  m_depth = makeTexture2d({kShadowFormat, size, size, GL_LINEAR});
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  const std::array<float, 4> lit{1, 1, 1, 1};  // outside of the map nothing casts
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit.data());
+  m_framebuffer = makeFramebuffer("the shadow map", {}, m_depth.id(), 1);
+}
+
+void ShadowMap::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer.id());
+  glViewport(0, 0, m_size, m_size);
+  glClearDepth(1);
+  glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+void SceneTargets::resize(int width, int height) {
+  if (width == m_width && height == m_height) return;
+  m_colour = makeTexture2d({kColourFormat, width, height});
+  m_depth = makeTexture2d({kDepthFormat, width, height});
+  m_scene = makeFramebuffer("the scene", std::array{m_colour.id()}, m_depth.id(), 1);
+  if (m_samples > 1) {
+    m_sampledColour = makeTexture2d({kColourFormat, width, height, GL_NEAREST, m_samples});
+    m_sampledDepth = makeTexture2d({kDepthFormat, width, height, GL_NEAREST, m_samples});
+    m_sampledScene = makeFramebuffer("the multisampled scene", std::array{m_sampledColour.id()},
+                                     m_sampledDepth.id(), m_samples);
+  }
+  const int halfWidth = (width + 1) / 2, halfHeight = (height + 1) / 2;
+  m_dust = makeTexture2d({GL_RGBA16F, halfWidth, halfHeight});
+  m_dustDistance = makeTexture2d({GL_R32F, halfWidth, halfHeight});
+  m_dustFramebuffer = makeFramebuffer("the dust", std::array{m_dust.id(), m_dustDistance.id()}, 0, 1);
+  m_width = width;
+  m_height = height;
+}
+
+void SceneTargets::beginScene() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, m_samples > 1 ? m_sampledScene.id() : m_scene.id());
+  glViewport(0, 0, m_width, m_height);
+  glClearDepth(1);
+  glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+void SceneTargets::resolve() const {
+  if (m_samples <= 1) return;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, m_sampledScene.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_scene.id());
+  glBlitFramebuffer(0, 0, m_width, m_height, 0, 0, m_width, m_height,
+                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void SceneTargets::beginDust() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, m_dustFramebuffer.id());
+  glViewport(0, 0, (m_width + 1) / 2, (m_height + 1) / 2);
+}
+
+}  // namespace rubble::render

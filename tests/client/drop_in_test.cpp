@@ -1,0 +1,69 @@
+// Bullet's hello world with Rubble in it: it links nothing of GL or CGAL, and the ball breaks what it falls
+// on.
+#include <gtest/gtest.h>
+
+#include "rubble/asset.h"
+#include "rubble/cook.h"
+#include "scenes/child.h"
+#include "scenes/scene_file.h"
+
+namespace rubble::tests {
+namespace {
+
+std::string cookedBlock(const TestFolder& folder) {
+  CookOptions options;
+  options.elements = 128;
+  const std::filesystem::path file = folder.path() / "block.rubble-asset";
+  save(cook(boxMesh({0.4, 0.4, 0.4}), options), file);
+  return file.string();
+}
+
+void expectABreak(const std::string& program) {
+  const TestFolder folder;
+  const ChildResult result = runChild(program + " " + cookedBlock(folder), folder.path());
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_NE(result.out.find("broke"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("frame 59: ball at"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("nan"), std::string::npos);
+}
+
+TEST(DropIn, BreaksWhatItLoads) {
+  expectABreak(RUBBLE_DROP_IN);
+}
+
+TEST(ClientProject, BuildsWithTheRuntimeAloneAndBreaksWhatItLoads) {
+  const TestFolder folder;
+  const ChildResult build = runChild(
+      RUBBLE_CMAKE " -G Ninja -S " RUBBLE_SOURCE_DIR "/tests/client/project -B " RUBBLE_CLIENT_BUILD
+                   " -DRUBBLE_FOLDER=" RUBBLE_SOURCE_DIR " -DCMAKE_BUILD_TYPE=Release && " RUBBLE_CMAKE
+                   " --build " RUBBLE_CLIENT_BUILD " --target client",
+      folder.path());
+  ASSERT_EQ(build.exitCode, 0) << build.out << build.error;
+  expectABreak(RUBBLE_CLIENT_BUILD "/client");
+}
+
+TEST(DropIn, LinksNeitherGlNorCgal) {
+  const TestFolder folder;
+  const ChildResult result = runChild("ldd " RUBBLE_DROP_IN, folder.path());
+  ASSERT_EQ(result.exitCode, 0);
+  EXPECT_NE(result.out.find("libBulletDynamics"), std::string::npos);
+  for (const char* library : {"libGL", "libEGL", "libepoxy", "libglfw", "libgmp", "libmpfr"})
+    EXPECT_EQ(result.out.find(library), std::string::npos) << library;
+}
+
+TEST(DropIn, AddsAtMostTenLinesToHelloWorld) {
+  std::ifstream source(RUBBLE_SOURCE_DIR "/demo/drop_in.cpp");
+  int ours = 0;
+  for (std::string line; std::getline(source, line);) ours += line.find("// ours") != std::string::npos;
+  EXPECT_GT(ours, 0);
+  EXPECT_LE(ours, 10);
+}
+
+TEST(DropIn, RefusesWhatIsNoAsset) {
+  const TestFolder folder;
+  EXPECT_EQ(runChild(RUBBLE_DROP_IN " none", folder.path()).exitCode, 2);
+  EXPECT_EQ(runChild(RUBBLE_DROP_IN " " + folder.write("bad", "not an asset"), folder.path()).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace rubble::tests

@@ -1,0 +1,46 @@
+// The thread that writes pictures. No GL: the pictures are made by hand.
+#include "picture_writer.h"
+
+#include <gtest/gtest.h>
+
+#include "rubble/error.h"
+#include "scene_file.h"
+
+namespace rubble::tests {
+namespace {
+
+Image grey(std::uint8_t level) {
+  constexpr int kWidth = 64, kHeight = 36;
+  return {kWidth, kHeight, std::vector<std::uint8_t>(kWidth * kHeight * 4, level)};
+}
+
+TEST(PictureWriter, WritesMorePicturesThanItsQueueHolds) {
+  const TestFolder folder;
+  demo::PictureWriter writer(folder.path());
+  for (int frame = 0; frame < 30; ++frame) writer.save(frame, grey(static_cast<std::uint8_t>(frame)));
+  writer.finish();
+  for (int frame = 0; frame < 30; ++frame)
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / demo::pictureName(frame))) << frame;
+}
+
+TEST(PictureWriter, WritesWhatIsQueuedBeforeItGoes) {
+  const TestFolder folder;
+  { demo::PictureWriter(folder.path()).save(0, grey(1)); }
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "frame_0000.png"));
+}
+
+TEST(PictureWriter, TellsWhatFailed) {
+  const TestFolder folder;
+  demo::PictureWriter writer(folder.path() / "none");
+  writer.save(0, grey(1));
+  EXPECT_THROW(writer.finish(), Error);
+}
+
+TEST(PictureWriter, NamesSortByFrame) {
+  EXPECT_EQ(demo::pictureName(0), "frame_0000.png");
+  EXPECT_EQ(demo::pictureName(179), "frame_0179.png");
+  EXPECT_EQ(demo::pictureName(12345), "frame_12345.png");
+}
+
+}  // namespace
+}  // namespace rubble::tests

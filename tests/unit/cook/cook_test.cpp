@@ -1,0 +1,175 @@
+// What cook() promises as a whole: determinism, time, progress, and errors that name the fault.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <limits>
+
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+std::string bytesOf(const Asset& asset) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "rubble_cook_test_bytes.asset";
+  save(asset, file);
+  const std::string bytes = fileBytes(file);
+  std::filesystem::remove(file);
+  return bytes;
+}
+
+void expectError(const SurfaceMesh& mesh, const CookOptions& options, const std::string& words) {
+  try {
+    cook(mesh, options);
+    FAIL() << "no error; expected: " << words;
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  }
+}
+
+TEST(Cook, GivesTheSameBytesForTheSameSeed) {
+  CookOptions options = optionsFor(200);
+  const std::string first = bytesOf(cook(ell(), options));
+  EXPECT_EQ(first, bytesOf(cook(ell(), options)));
+  options.seed = 2;
+  EXPECT_NE(first, bytesOf(cook(ell(), options)));
+}
+
+TEST(Cook, TakesTheWallInUnderOneAndAHalfSeconds) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+  GTEST_SKIP() << "an optimised build only";
+#endif
+  const auto start = std::chrono::steady_clock::now();
+  cook(wallMesh(), wallOptions());
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.5);
+}
+
+TEST(Cook, ReportsProgressThatOnlyGrows) {
+  for (const std::size_t elements : {50u, 2u}) {  // two have to shrink, and packing begins again
+    double last = 0;
+    cook(boxMesh({1, 1, 1}), optionsFor(elements), [&last](double share, const char* stage) {
+      EXPECT_GE(share, last);
+      EXPECT_NE(stage, nullptr);
+      last = share;
+    });
+    EXPECT_EQ(last, 1.0);
+  }
+}
+
+// The wall has 2048 elements in 60 x 60 x 2.4 diameters; along the curve consecutive ones are a few spacings
+// apart, in a random order they would be half a metre apart.
+TEST(Cook, NumbersElementsAlongACurve) {
+  const Asset wall = cook(wallMesh(), wallOptions());
+  double sum = 0;
+  for (std::size_t i = 1; i < wall.elementCount(); ++i)
+    sum += (wall.positions[i] - wall.positions[i - 1]).norm();
+  EXPECT_LT(sum / 2047, 2 * wall.spacing());
+}
+
+TEST(Cook, RefusesAnEmptyMesh) {
+  expectError({}, {}, "empty");
+  expectError({boxMesh({1, 1, 1}).vertices, {}}, {}, "empty");
+}
+
+TEST(Cook, RefusesNumbersThatAreNotFinite) {
+  SurfaceMesh mesh = boxMesh({1, 1, 1});
+  mesh.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
+  expectError(mesh, optionsFor(8), "vertex 3 is not finite");
+  mesh.vertices[3].y() = std::numeric_limits<double>::infinity();
+  expectError(mesh, optionsFor(8), "vertex 3 is not finite");
+}
+
+TEST(Cook, RefusesIndicesOutOfRange) {
+  SurfaceMesh mesh = boxMesh({1, 1, 1});
+  mesh.triangles[5][1] = 8;
+  expectError(mesh, optionsFor(8), "index out of range: triangle 5 names vertex 8 of 8");
+  mesh.triangles[5] = {1, 1, 2};
+  expectError(mesh, optionsFor(8), "triangle 5 names vertex 1 twice");
+}
+
+TEST(Cook, RefusesAnOpenMesh) {
+  SurfaceMesh mesh = boxMesh({1, 1, 1});
+  mesh.triangles.pop_back();
+  expectError(mesh, optionsFor(8), "not closed: the edge from (");
+}
+
+TEST(Cook, RefusesAnEdgeWithFourTriangles) {
+  // Two cubes that touch in one edge, whose ends they share.
+  SurfaceMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1, 1, 0}));
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& v : triangle) {
+      if (v == 8) v = 3;   // (+, +, -) of the first is (-, -, -) of the second
+      if (v == 12) v = 7;  // and the same above
+    }
+  expectError(mesh, optionsFor(8), "not manifold");
+}
+
+TEST(Cook, RefusesATriangleTurnedRound) {
+  SurfaceMesh mesh = boxMesh({1, 1, 1});
+  std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+  expectError(mesh, optionsFor(8), "inconsistent orientation");
+}
+
+TEST(Cook, RefusesAMeshInsideOut) {
+  expectError(reversed(boxMesh({1, 1, 1})), optionsFor(8), "inward orientation");
+}
+
+TEST(Cook, RefusesAMeshWithoutVolume) {
+  expectError({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}}, optionsFor(1), "zero volume");
+}
+
+TEST(Cook, IgnoresVerticesThatNoTriangleUses) {
+  SurfaceMesh mesh = boxMesh({1, 1, 1});
+  mesh.vertices.emplace_back(100, 0, 0);
+  EXPECT_NEAR(cook(mesh, optionsFor(8)).volume(), 1, 1e-12);
+}
+
+TEST(Cook, CutsTrianglesWithoutArea) {
+  SurfaceMesh mesh =
+      boxMesh({1, 1, 1});  // triangles 0 and 1, {0, 2, 3} and {0, 3, 1}, meet in the diagonal 0-3
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.emplace_back(0, 0, -0.5);
+  mesh.triangles[0] = {0, 2, 3};
+  mesh.triangles.push_back({0, 3, middle});  // flat: its three corners are on the diagonal
+  mesh.triangles[1] = {0, middle, 1};
+  mesh.triangles.push_back({middle, 3, 1});
+  const Asset asset = cook(mesh, optionsFor(60));
+  EXPECT_NEAR(asset.volume(), 1, 1e-12);
+}
+
+TEST(Cook, RefusesImpossibleOptions) {
+  const SurfaceMesh mesh = boxMesh({1, 1, 1});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expectRefused = [&mesh](const std::string& words, auto change) {
+    CookOptions options = optionsFor(8);
+    change(options);
+    expectError(mesh, options, words);
+  };
+  expectRefused("elements is 0; allowed: 1 to", [](CookOptions& o) { o.elements = 0; });
+  expectRefused("elements is", [](CookOptions& o) { o.elements = 10'000'001; });
+  expectRefused("radius is -1", [](CookOptions& o) { o.radius = -1; });
+  expectRefused("radius is nan", [nan](CookOptions& o) { o.radius = nan; });
+  expectRefused("fill is", [nan](CookOptions& o) { o.fill = nan; });
+  expectRefused("fill is 0.9", [](CookOptions& o) { o.fill = 0.9; });
+  expectRefused("maxOverlap is", [nan](CookOptions& o) { o.maxOverlap = nan; });
+  expectRefused("maxIterations is 0", [](CookOptions& o) { o.maxIterations = 0; });
+  expectRefused("minFaceArea is", [nan](CookOptions& o) { o.minFaceArea = nan; });
+  expectRefused("anchorBand is", [nan](CookOptions& o) { o.anchorBand = nan; });
+  expectRefused("anchorDirection is 0", [](CookOptions& o) { o.anchorDirection = Eigen::Vector3d::Zero(); });
+}
+
+TEST(Cook, SaysWhatFitsWhenTheElementsDoNot) {
+  CookOptions options = optionsFor(8);
+  options.radius = 0.6;
+  expectError(boxMesh({1, 1, 1}), options, "times the mesh's volume");
+  options.elements = 1;
+  expectError(boxMesh({1, 1, 1}), options, "no sphere of radius 0.6 m fits");
+  options.elements = 200;  // fills 0.84: less than the volume, more than any packing
+  options.radius = 0.1;
+  expectError(boxMesh({1, 1, 1}), options, "do not fit: they overlap by up to");
+}
+
+}  // namespace
+}  // namespace rubble::test

@@ -1,0 +1,145 @@
+// Closed test solids with known volumes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "rubble/cook.h"
+
+namespace rubble::test {
+
+/// A plane polygon (counter-clockwise, with its triangles) extruded along z from 0 to height.
+inline SurfaceMesh extrude(const std::vector<Eigen::Vector2d>& outline,
+                           const std::vector<std::array<std::uint32_t, 3>>& triangles, double height) {
+  SurfaceMesh mesh;
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  for (const double z : {0.0, height})
+    for (const Eigen::Vector2d& p : outline) mesh.vertices.emplace_back(p.x(), p.y(), z);
+  for (const auto& [a, b, c] : triangles) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a + n, b + n, c + n});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    mesh.triangles.push_back({i, j, j + n});
+    mesh.triangles.push_back({i, j + n, i + n});
+  }
+  return mesh;
+}
+
+/// An L of three unit squares, 0.5 thick: volume 1.5.
+inline SurfaceMesh ell() {
+  return extrude({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0.5);
+}
+
+/// Two legs 1 wide and 1 high on a foot 1 high, `gap` apart, 0.5 thick: volume (2 + (2 + gap)) / 2.
+inline SurfaceMesh you(double gap) {
+  const double right = 1 + gap;
+  return extrude({{0, 0}, {right + 1, 0}, {right + 1, 2}, {right, 2}, {right, 1}, {1, 1}, {1, 2}, {0, 2}},
+                 {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}, {0, 5, 6}, {0, 6, 7}}, 0.5);
+}
+
+/// A ring about z: `around` x `across` quadrilaterals.
+inline SurfaceMesh torus(double ringRadius, double tubeRadius, std::uint32_t around, std::uint32_t across) {
+  SurfaceMesh mesh;
+  for (std::uint32_t i = 0; i < around; ++i)
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * i / around;
+      const double v = 2 * std::numbers::pi * j / across;
+      const double d = ringRadius + tubeRadius * std::cos(v);
+      mesh.vertices.emplace_back(d * std::cos(u), d * std::sin(u), tubeRadius * std::sin(v));
+    }
+  for (std::uint32_t i = 0; i < around; ++i)
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const std::uint32_t i1 = (i + 1) % around;
+      const std::uint32_t j1 = (j + 1) % across;
+      mesh.triangles.push_back({i * across + j, i1 * across + j, i1 * across + j1});
+      mesh.triangles.push_back({i * across + j, i1 * across + j1, i * across + j1});
+    }
+  return mesh;
+}
+
+/// A ball of `bands` x 2 `bands` quadrilaterals, its vertices on the sphere.
+inline SurfaceMesh ball(double radius, std::uint32_t bands) {
+  SurfaceMesh mesh;
+  const std::uint32_t around = 2 * bands;
+  for (std::uint32_t i = 1; i < bands; ++i)
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double polar = std::numbers::pi * i / bands;
+      const double azimuth = 2 * std::numbers::pi * j / around;
+      mesh.vertices.emplace_back(radius * std::sin(polar) * std::cos(azimuth),
+                                 radius * std::sin(polar) * std::sin(azimuth), radius * std::cos(polar));
+    }
+  const auto north = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.emplace_back(0, 0, radius);
+  mesh.vertices.emplace_back(0, 0, -radius);
+  for (std::uint32_t j = 0; j < around; ++j) {
+    const std::uint32_t j1 = (j + 1) % around;
+    const std::uint32_t last = (bands - 2) * around;
+    mesh.triangles.push_back({north, j, j1});
+    mesh.triangles.push_back({north + 1, last + j1, last + j});
+    for (std::uint32_t i = 0; i + 2 < bands; ++i) {
+      mesh.triangles.push_back({i * around + j, (i + 1) * around + j, (i + 1) * around + j1});
+      mesh.triangles.push_back({i * around + j, (i + 1) * around + j1, i * around + j1});
+    }
+  }
+  return mesh;
+}
+
+inline SurfaceMesh reversed(SurfaceMesh mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+inline SurfaceMesh joined(SurfaceMesh mesh, const SurfaceMesh& other) {
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + shift, b + shift, c + shift});
+  return mesh;
+}
+
+/// A unit cube about the origin with a cubic cavity of edge 0.5: volume 0.875.
+inline SurfaceMesh hollowCube() {
+  return joined(boxMesh(Eigen::Vector3d::Ones()), reversed(boxMesh(Eigen::Vector3d::Constant(0.5))));
+}
+
+/// By the divergence theorem.
+inline double volumeOf(const SurfaceMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
+  return sum;
+}
+
+/// `count` elements, the rest as in the defaults.
+inline CookOptions optionsFor(std::size_t count) {
+  CookOptions options;
+  options.elements = count;
+  return options;
+}
+
+/// The wall of the paper's figure 6.
+inline SurfaceMesh wallMesh() {
+  return boxMesh({1, 1, 0.08});
+}
+inline CookOptions wallOptions() {
+  CookOptions options;
+  options.elements = 2048;
+  options.radius = 0.016;
+  options.anchorDirection = -Eigen::Vector3d::UnitY();
+  return options;
+}
+
+inline std::string fileBytes(const std::filesystem::path& file) {
+  std::string bytes(std::filesystem::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace rubble::test
