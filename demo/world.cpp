@@ -158,6 +158,7 @@ void World::step() {
   } catch (const Error& error) {
     throw RunStopped(error.what());
   }
+  if (!m_destruction->failure().empty()) throw RunStopped(m_destruction->failure());
 }
 
 void World::finishTick(double seconds) {

@@ -22,7 +22,8 @@ vec4 pack(const Eigen::Vector3f& v, float w) {
 }
 
 shared::DustSolid describe(const DustObstacle& o, const Eigen::Matrix3f& rotation) {
-  const float speed = o.velocity.norm();
+  // Without squares that overflow: a huge velocity would be cut to none.
+  const float speed = o.velocity.stableNorm();
   const float cut = speed > shared::kDustMaxSpeed ? shared::kDustMaxSpeed / speed : 1;
   const bool box = o.kind == DustObstacle::Kind::Box;
   return {pack(o.position, box ? 1.0f : 0.0f),

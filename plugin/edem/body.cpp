@@ -15,13 +15,14 @@ namespace {
 
 void require(bool holds, const Material& material, const char* key, double value, const char* allowed) {
   if (holds && std::isfinite(value)) return;
-  throw Error("material " + material.name + ": " + key + ": " + std::to_string(value) + " is not allowed, must be " +
-              allowed);
+  throw Error("material " + material.name + ": " + key + ": " + std::to_string(value) +
+              " is not allowed, must be " + allowed);
 }
 
 void check(const BodyDef& def) {
   if (!def.asset) throw Error("destructible body: asset: none given");
   if (def.asset->elementCount() == 0) throw Error("destructible body: asset: has no elements");
+  def.asset->validate();
   const Material& m = def.material;
   require(m.density > 0, m, "density", m.density, "> 0 kg/m^3");
   require(m.youngsModulus > 0, m, "youngsModulus", m.youngsModulus, "> 0 Pa");
@@ -39,6 +40,11 @@ void check(const BodyDef& def) {
     throw Error("destructible body: crushEnergy: must have one value an element");
   if (!def.velocity.allFinite() || !def.spin.allFinite() || !def.transform.matrix().allFinite())
     throw Error("destructible body: transform, velocity, spin: must be finite");
+  constexpr double kRounding = 1e-5;  // of a rotation that came through float
+  const Eigen::Matrix3d turn = def.transform.linear();
+  if (!(turn * turn.transpose()).isIdentity(kRounding) || turn.determinant() < 0)
+    throw Error(
+        "destructible body: transform: must be a rotation and a translation, without scale or mirror");
 }
 
 template <class Real>
@@ -67,16 +73,18 @@ void makeElements(Body<Real>& body, const BodyDef& def) {
   body.origin = def.transform * centre;
 }
 
-/// k = E A / |d0|, k_rot = E A^2 / (12 |d0|) (square face; bending and twist alike as the lattice has nu = 0).
+/// k = E A / |d0|, k_rot = E A^2 / (12 |d0|) (square face; bending and twist alike as the lattice has nu =
+/// 0).
 template <class Real>
-Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, double length, const Material& material,
-                        const Model& model) {
+Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, double length,
+                        const Material& material, const Model& model) {
   Spring<Real> spring{};
   spring.first = first;
   spring.second = second;
   spring.area = Real(area);
   spring.stiffness = Real(material.youngsModulus * area / length);
-  spring.rotational = model.rotationalStiffness ? Real(material.youngsModulus * area * area / (12 * length)) : Real(0);
+  spring.rotational =
+      model.rotationalStiffness ? Real(material.youngsModulus * area * area / (12 * length)) : Real(0);
   return spring;
 }
 
@@ -93,8 +101,8 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
   body.anchorBegin = body.springs.size();
   for (std::size_t a = 0; a < anchors; ++a) {
     const AssetAnchor& anchor = asset.anchors[a];
-    // The far end mirrors the element beyond the tied point, so the gap opens there; only the element's own half is
-    // elastic, hence half the length.
+    // The far end mirrors the element beyond the tied point, so the gap opens there; only the element's own
+    // half is elastic, hence half the length.
     const Eigen::Vector3d rest = 2 * (anchor.point - asset.positions[anchor.element]);
     body.springs.push_back(makeSpring<Real>(anchor.element, anchor.element, anchor.area, 0.5 * rest.norm(),
                                             def.material, def.model));
@@ -104,7 +112,8 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
   body.intact.assign(body.springs.size(), 1);
 }
 
-/// Dashpots c = beta k with beta = 2 xi / omega_max: the damping ratio is xi at the highest frequency, less below it.
+/// Dashpots c = beta k with beta = 2 xi / omega_max: the damping ratio is xi at the highest frequency, less
+/// below it.
 template <class Real>
 void makeDashpots(Body<Real>& body) {
   std::vector<ElementRates> rates(body.elementCount());
@@ -134,7 +143,8 @@ void indexSprings(Body<Real>& body) {
   each([&](std::uint32_t i, std::uint32_t s) { body.springsOf[fill[i]++] = s; });
 }
 
-/// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D of their own.
+/// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D
+/// of their own.
 template <class Real>
 void makePairs(Body<Real>& body) {
   const std::size_t n = body.elementCount();
@@ -158,7 +168,8 @@ void makePairs(Body<Real>& body) {
     grid.visitBox(points[i] - reach, points[i] + reach, [&](std::uint32_t j) {
       const double distance = (points[j] - points[i]).norm();
       if (j <= i || distance >= diameter) return;
-      if (std::find(joined[i].begin(), joined[i].end(), j) == joined[i].end()) list.push_back({i, j, Real(distance)});
+      if (std::find(joined[i].begin(), joined[i].end(), j) == joined[i].end())
+        list.push_back({i, j, Real(distance)});
     });
   }
 
@@ -171,7 +182,8 @@ void makePairs(Body<Real>& body) {
   }
   body.pairOffsets.assign(1, 0);
   for (auto& of : partners) {
-    std::sort(of.begin(), of.end(), [](const PairIndex& a, const PairIndex& b) { return a.partner < b.partner; });
+    std::sort(of.begin(), of.end(),
+              [](const PairIndex& a, const PairIndex& b) { return a.partner < b.partner; });
     body.pairs.insert(body.pairs.end(), of.begin(), of.end());
     body.pairOffsets.push_back(std::uint32_t(body.pairs.size()));
   }
@@ -182,7 +194,8 @@ void makeContact(Body<Real>& body) {
   const Material& m = body.material;
   body.radius = Real(body.asset->radius);
   body.contactStiffness = m.contactStiffness * m.youngsModulus * body.asset->spacing();
-  const double meanMass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0) / double(body.elementCount());
+  const double meanMass =
+      std::accumulate(body.mass.begin(), body.mass.end(), 0.0) / double(body.elementCount());
   body.contact.stiffness = Real(body.contactStiffness);
   body.contact.damping = Real(dashpot(m.contactDamping, body.contactStiffness, 0.5 * meanMass));
   body.contact.friction = body.model.coulombFriction ? Real(m.friction) : Real(-1);
@@ -266,13 +279,15 @@ void fitFrame(Body<Real>& body) {
   const Eigen::Matrix3d old = body.turn.toRotationMatrix(), now = turn.toRotationMatrix();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     if (body.alive[i])
-      shift += body.mass[i] * (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i]);
+      shift +=
+          body.mass[i] * (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i]);
   }
   shift /= total;
   const Quat<Real> back = Quat<Real>(step.conjugate().coeffs().template cast<Real>());
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     body.displacement[i] =
-        (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i] - shift).template cast<Real>();
+        (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i] - shift)
+            .template cast<Real>();
     body.rotation[i] = (body.rotation[i] * back).normalized();
   }
   body.origin += shift;

@@ -1,10 +1,11 @@
 // The state of one destructible body: plain arrays, copyable, nothing but numbers.
 //
-// Floats hold displacements, never absolute positions: at 30 GPa a float position is noise three metres from the origin. So
-// a body has a rigid frame (origin, turn; in double) and an element is where
+// Floats hold displacements, never absolute positions: at 30 GPa a float position is noise three metres from
+// the origin. So a body has a rigid frame (origin, turn; in double) and an element is where
 //     x_I = origin + turn X_I + u_I,   R_I = R'_I turn
-// with X_I its rest position about the centre of mass. The frame stands still during a tick; fitFrame moves it to the body's best
-// rigid motion between ticks, and the springs' rest vectors turn with it. All vectors are in world axes.
+// with X_I its rest position about the centre of mass. The frame stands still during a tick; fitFrame moves
+// it to the body's best rigid motion between ticks, and the springs' rest vectors turn with it. All vectors
+// are in world axes.
 #pragma once
 
 #include <memory>
@@ -30,7 +31,8 @@ struct BodyDef {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< [rad/s]
   double massDamping = 0;                              ///< of the deformation velocity [1/s]
   bool anchored = true;                                ///< use the asset's anchors
-  std::vector<double> crushEnergy;  ///< fracture energy W_I at which element I is crushed [J] (n); empty: never
+  std::vector<double>
+      crushEnergy;  ///< fracture energy W_I at which element I is crushed [J] (n); empty: never
 };
 
 /// A pair of elements whose contact distance is not simply 2 r: joined by a spring, or overlapping at rest.
@@ -54,25 +56,25 @@ struct Body {
   double massDamping = 0;
 
   // Constants of the elements.
-  std::vector<double> mass;         ///< density x volume of the cell [kg]
+  std::vector<double> mass;  ///< density x volume of the cell [kg]
   std::vector<Real> inverseMass;
-  std::vector<double> inertia;      ///< scalar moment [kg m^2]
+  std::vector<double> inertia;  ///< scalar moment [kg m^2]
   std::vector<Real> inverseInertia;
   std::vector<Eigen::Vector3d> restCentred;  ///< X_I: rest positions about the centre of mass, asset axes [m]
-  std::vector<Real> crushEnergy;    ///< W_I above which I is crushed [J], from eq. (4)
+  std::vector<Real> crushEnergy;             ///< W_I above which I is crushed [J], from eq. (4)
 
   // Springs, then anchors. An anchor's far end is a fixed point.
   std::vector<Spring<Real>> springs;
-  std::vector<Eigen::Vector3d> springRest;  ///< d0, asset axes [m]
-  std::size_t anchorBegin = 0;              ///< springs[anchorBegin..] are anchors
+  std::vector<Eigen::Vector3d> springRest;   ///< d0, asset axes [m]
+  std::size_t anchorBegin = 0;               ///< springs[anchorBegin..] are anchors
   std::vector<std::uint32_t> springOffsets;  ///< CSR: the springs and anchors of each element
   std::vector<std::uint32_t> springsOf;
-  std::vector<std::uint32_t> pairOffsets;   ///< CSR: partners of each element, sorted by partner
+  std::vector<std::uint32_t> pairOffsets;  ///< CSR: partners of each element, sorted by partner
   std::vector<PairIndex> pairs;
   Criterion<Real> criterion{};
-  ContactLaw<Real> contact{};               ///< between two elements
+  ContactLaw<Real> contact{};  ///< between two elements
   Real radius = 0;
-  double contactStiffness = 0;              ///< k_cn = contactStiffness E h [N/m]
+  double contactStiffness = 0;  ///< k_cn = contactStiffness E h [N/m]
 
   // State.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -80,34 +82,38 @@ struct Body {
   std::vector<Vec3<Real>> displacement;  ///< u_I [m]
   std::vector<Quat<Real>> rotation;      ///< R'_I
   std::vector<Vec3<Real>> velocity;      ///< at the half step before the positions [m/s]
-  std::vector<Vec3<Real>> velocityCarry; ///< what float addition lost of velocity (compensated summation) [m/s]
-  std::vector<Vec3<Real>> spin;          ///< [rad/s]
+  std::vector<Vec3<Real>>
+      velocityCarry;             ///< what float addition lost of velocity (compensated summation) [m/s]
+  std::vector<Vec3<Real>> spin;  ///< [rad/s]
   std::vector<std::uint8_t> alive;
-  std::vector<std::uint8_t> intact;      ///< springs, then anchors
-  std::vector<Real> range;               ///< D of each pair [m]
-  /// D against static rigid bodies [m]; kHeldByAnchor while an anchor carries the element (no contact then), kJustReleased once its
-  /// last anchor broke: the next contact sets it to min(r, distance), so that a break gives no kick.
+  std::vector<std::uint8_t> intact;  ///< springs, then anchors
+  std::vector<Real> range;           ///< D of each pair [m]
+  /// D against static rigid bodies [m]; kHeldByAnchor while an anchor carries the element (no contact then),
+  /// kJustReleased once its last anchor broke: the next contact sets it to min(r, distance), so that a break
+  /// gives no kick.
   std::vector<Real> groundRange;
-  std::vector<std::uint32_t> fragment;   ///< lowest element connected with I through springs; kNoElement if crushed
+  std::vector<std::uint32_t>
+      fragment;  ///< lowest element connected with I through springs; kNoElement if crushed
   std::uint32_t fragmentCount = 0;
   std::uint32_t crushedCount = 0;
   std::uint32_t brokenCount = 0;
   std::uint32_t anchorsIntact = 0;
   bool asleep = false;
+  double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
 
   // Derived from the frame; written by turnRest.
   std::vector<Vec3<Real>> rest;  ///< turn X_I [m]
 
   // Work space of a substep.
-  std::vector<Vec3<Real>> position;       ///< rest + u, relative to origin [m]
-  std::vector<Vec3<Real>> force, torque;  ///< all [N], [N m]
+  std::vector<Vec3<Real>> position;                     ///< rest + u, relative to origin [m]
+  std::vector<Vec3<Real>> force, torque;                ///< all [N], [N m]
   std::vector<Vec3<Real>> dampingForce, dampingTorque;  ///< the part of force and torque that is lost energy
-  std::vector<Real> load;                 ///< W_I, eq. (3) [J]
-  std::vector<std::uint32_t> overloaded;  ///< springs to break in this substep
-  std::vector<BreakMode> overloadMode;    ///< why, beside `overloaded`
-  std::vector<std::uint32_t> crushing;    ///< elements that leave at the end of this substep
-  std::vector<std::uint8_t> leaving;      ///< 1 for those
-  std::vector<std::uint8_t> springListed; ///< marks of markCrushed; all 0 between calls
+  std::vector<Real> load;                               ///< W_I, eq. (3) [J]
+  std::vector<std::uint32_t> overloaded;                ///< springs to break in this substep
+  std::vector<BreakMode> overloadMode;                  ///< why, beside `overloaded`
+  std::vector<std::uint32_t> crushing;                  ///< elements that leave at the end of this substep
+  std::vector<std::uint8_t> leaving;                    ///< 1 for those
+  std::vector<std::uint8_t> springListed;               ///< marks of markCrushed; all 0 between calls
 
   std::size_t elementCount() const { return mass.size(); }
   Eigen::Vector3d worldPosition(std::size_t i) const {
@@ -117,7 +123,8 @@ struct Body {
   bool isAnchor(std::size_t spring) const { return spring >= anchorBegin; }
 };
 
-/// Builds a body at rest in its frame, with its launch velocity. Throws rubble::Error naming the bad constant.
+/// Builds a body at rest in its frame, with its launch velocity. Throws rubble::Error naming the bad
+/// constant.
 template <class Real>
 Body<Real> makeBody(const BodyDef& def, std::uint32_t id);
 
@@ -125,8 +132,9 @@ Body<Real> makeBody(const BodyDef& def, std::uint32_t id);
 template <class Real>
 void turnRest(Body<Real>& body);
 
-/// Moves the frame of a body without anchors to its best rigid motion (mean rotation, mean position; mass-weighted) and
-/// expresses the displacements and rotations in it. Positions, velocities and energies stay what they are.
+/// Moves the frame of a body without anchors to its best rigid motion (mean rotation, mean position;
+/// mass-weighted) and expresses the displacements and rotations in it. Positions, velocities and energies
+/// stay what they are.
 template <class Real>
 void fitFrame(Body<Real>& body);
 

@@ -1,8 +1,9 @@
-// Running sums of everything the elements exchange, so that the ledger closes. Doubles whatever the state's scalar.
+// Running sums of everything the elements exchange, so that the ledger closes. Doubles whatever the state's
+// scalar.
 //
-// Kinetic energy is m/2 v(n-1/2) . v(n+1/2) beside U(x_n): symplectic Euler is leapfrog, and for linear springs this sum is
-// exactly constant. In the same sense a force does the work h/2 F_n . v(n-1/2) before the instant n and h/2 F_n . v(n+1/2)
-// after it: a Work holds back the second half until the next instant.
+// Kinetic energy is m/2 v(n-1/2) . v(n+1/2) beside U(x_n): symplectic Euler is leapfrog, and for linear
+// springs this sum is exactly constant. In the same sense a force does the work h/2 F_n . v(n-1/2) before the
+// instant n and h/2 F_n . v(n+1/2) after it: a Work holds back the second half until the next instant.
 #pragma once
 
 #include "edem/types.h"
@@ -35,7 +36,8 @@ struct Exchange {
   Work work;                                          ///< [J]
 
   /// `torque` about `arm`'s end; `arm` from Books::centre.
-  void push(double h, const Eigen::Vector3d& force, const Eigen::Vector3d& arm, const Eigen::Vector3d& torque) {
+  void push(double h, const Eigen::Vector3d& force, const Eigen::Vector3d& arm,
+            const Eigen::Vector3d& torque) {
     linear += h * force;
     angular += h * (arm.cross(force) + torque);
     size += h * force.norm();
@@ -43,18 +45,19 @@ struct Exchange {
 };
 
 struct Books {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< reference of angular momentum: the first bodies' centre of mass
-  double diagonal = 0;                               ///< of the bodies when they were added [m]
-  double initialMass = 0;                            ///< [kg]
-  double initialMomentumSize = 0;                    ///< sum m |v| [kg m/s]
+  Eigen::Vector3d centre =
+      Eigen::Vector3d::Zero();     ///< reference of angular momentum: the first bodies' centre of mass
+  double diagonal = 0;             ///< of the bodies when they were added [m]
+  double initialMass = 0;          ///< [kg]
+  double initialMomentumSize = 0;  ///< sum m |v| [kg m/s]
   Eigen::Vector3d initialLinear = Eigen::Vector3d::Zero();
   Eigen::Vector3d initialAngular = Eigen::Vector3d::Zero();
-  double initialEnergy = 0;                          ///< kinetic + elastic when added [J]
+  double initialEnergy = 0;  ///< kinetic + elastic when added [J]
   Exchange bullet, gravity, anchors;
-  Work dissipated;                                   ///< negative work of dashpots and friction on the elements [J]
-  double fracture = 0;                               ///< elastic energy of what broke [J]
-  double massDamped = 0;                             ///< kinetic energy taken by mass damping [J]
-  double slept = 0;                                  ///< kinetic energy taken by sleep [J]
+  Work dissipated;        ///< negative work of dashpots and friction on the elements [J]
+  double fracture = 0;    ///< elastic energy of what broke [J]
+  double massDamped = 0;  ///< kinetic energy taken by mass damping [J]
+  double slept = 0;       ///< kinetic energy taken by sleep [J]
   Eigen::Vector3d sleptLinear = Eigen::Vector3d::Zero(), sleptAngular = Eigen::Vector3d::Zero();
   // What crushed and removed elements took with them.
   double leftMass = 0, leftKinetic = 0, leftElastic = 0;

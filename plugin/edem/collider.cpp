@@ -23,7 +23,8 @@ SurfacePoint nearestOnBox(const Eigen::Vector3d& half, const Eigen::Vector3d& p)
   return {distance, away / distance};
 }
 
-Eigen::Vector3d nearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
+Eigen::Vector3d nearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                 const Eigen::Vector3d& p) {
   const Eigen::Vector3d ab = b - a;
   const double length2 = ab.squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
@@ -71,10 +72,14 @@ SurfacePoint nearestOnHull(const Hull& hull, const Eigen::Vector3d& p) {
 
 SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
   switch (c.kind) {
-    case Collider::Kind::Plane: return {c.size.dot(p) - c.offset, c.size};
-    case Collider::Kind::Box: return nearestOnBox(c.size, p);
-    case Collider::Kind::Hull: return nearestOnHull(*c.hull, p);
-    case Collider::Kind::Sphere: break;
+    case Collider::Kind::Plane:
+      return {c.size.dot(p) - c.offset, c.size};
+    case Collider::Kind::Box:
+      return nearestOnBox(c.size, p);
+    case Collider::Kind::Hull:
+      return nearestOnHull(*c.hull, p);
+    case Collider::Kind::Sphere:
+      break;
   }
   const double length = p.norm();
   return {length - c.size.x(), length > 0 ? Eigen::Vector3d(p / length) : Eigen::Vector3d::UnitY()};
@@ -87,14 +92,19 @@ Eigen::AlignedBox3d Collider::bounds() const {
   switch (kind) {
     case Kind::Plane:
       return {Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity)};
-    case Kind::Sphere: local = {Eigen::Vector3d::Constant(-size.x()), Eigen::Vector3d::Constant(size.x())}; break;
-    case Kind::Box: local = {-size, size}; break;
+    case Kind::Sphere:
+      local = {Eigen::Vector3d::Constant(-size.x()), Eigen::Vector3d::Constant(size.x())};
+      break;
+    case Kind::Box:
+      local = {-size, size};
+      break;
     case Kind::Hull:
       for (const Hull::Face& face : hull->faces)
         for (const Eigen::Vector3d& v : face.vertices) local.extend(v);
       break;
   }
-  const Eigen::Vector3d reach = place.linear().cwiseAbs() * (0.5 * local.sizes()) + Eigen::Vector3d::Constant(rounding);
+  const Eigen::Vector3d reach =
+      place.linear().cwiseAbs() * (0.5 * local.sizes()) + Eigen::Vector3d::Constant(rounding);
   const Eigen::Vector3d centre = place * local.center();
   return {centre - reach, centre + reach};
 }

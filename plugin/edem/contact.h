@@ -2,7 +2,8 @@
 //
 //   F_n = -k_cn overlap - eta_cn v_n,  F_t = -eta_ct v_t
 //
-// DEVIATION: the dashpot never pulls (F_n >= 0), and friction limits |F_t| <= mu |F_n| (mu < 0: no limit, the paper).
+// DEVIATION: the dashpot never pulls (F_n >= 0), and friction limits |F_t| <= mu |F_n| (mu < 0: no limit, the
+// paper).
 #pragma once
 
 #include <cmath>
@@ -19,7 +20,8 @@ struct ContactLaw {
   Real friction;   ///< mu; negative: unlimited
 };
 
-/// Dashpot constant with the damping ratio `ratio` for the spring `stiffness` between masses of reduced mass `mass`.
+/// Dashpot constant with the damping ratio `ratio` for the spring `stiffness` between masses of reduced mass
+/// `mass`.
 template <class Real>
 Real dashpot(Real ratio, Real stiffness, Real mass) {
   return Real(2) * ratio * std::sqrt(stiffness * mass);
@@ -32,8 +34,8 @@ struct ContactForce {
   Vec3<Real> damping;
 };
 
-/// `normal` points from the first to the second body, `approach` is the velocity of the second relative to the first at the
-/// contact point [m/s], `overlap` > 0 [m].
+/// `normal` points from the first to the second body, `approach` is the velocity of the second relative to
+/// the first at the contact point [m/s], `overlap` > 0 [m].
 template <class Real>
 ContactForce<Real> contactForce(const ContactLaw<Real>& law, Real overlap, const Vec3<Real>& normal,
                                 const Vec3<Real>& approach) {

@@ -13,12 +13,12 @@ namespace rubble::edem {
 template <class Real>
 struct Criterion {
   BreakCriterion kind;
-  Real tension;       ///< f_t [Pa]
-  Real compression;   ///< f_c [Pa]
-  Real cohesion;      ///< c = sqrt(f_c f_t) / 2 [Pa]
+  Real tension;           ///< f_t [Pa]
+  Real compression;       ///< f_c [Pa]
+  Real cohesion;          ///< c = sqrt(f_c f_t) / 2 [Pa]
   Real internalFriction;  ///< mu_s = (f_c - f_t) / (2 sqrt(f_c f_t)), dimensionless
-  Real stretch2;      ///< square of the stretch threshold, dimensionless
-  Real halfAngleSine2;  ///< sin^2 of half the breaking angle
+  Real stretch2;          ///< square of the stretch threshold, dimensionless
+  Real halfAngleSine2;    ///< sin^2 of half the breaking angle
 };
 
 template <class Real>
@@ -30,18 +30,20 @@ Criterion<Real> makeCriterion(const Material& material, const Model& model) {
   c.tension = Real(material.tensileStrength);
   c.compression = Real(material.compressiveStrength);
   c.cohesion = Real(0.5 * geometric);
-  c.internalFriction =
-      geometric > 0 ? Real((material.compressiveStrength - material.tensileStrength) / (2 * geometric)) : Real(0);
+  c.internalFriction = geometric > 0
+                           ? Real((material.compressiveStrength - material.tensileStrength) / (2 * geometric))
+                           : Real(0);
   c.stretch2 = Real(material.stretchThreshold * material.stretchThreshold);
   c.halfAngleSine2 = Real(sine * sine);
   return c;
 }
 
-/// Whether and why the spring breaks. DEVIATION (default): Mohr-Coulomb on the traction t = k dx / A, since under the paper's isotropic
-/// threshold (Stretch) oblique springs fail in shear long before the object is crushed, and every element's
-/// fracture energy is capped alike.
+/// Whether and why the spring breaks. DEVIATION (default): Mohr-Coulomb on the traction t = k dx / A, since
+/// under the paper's isotropic threshold (Stretch) oblique springs fail in shear long before the object is
+/// crushed, and every element's fracture energy is capped alike.
 template <class Real>
-bool breaks(const Criterion<Real>& limit, const Spring<Real>& spring, const SpringLoad<Real>& load, BreakMode& mode) {
+bool breaks(const Criterion<Real>& limit, const Spring<Real>& spring, const SpringLoad<Real>& load,
+            BreakMode& mode) {
   if (load.halfAngleSine2 > limit.halfAngleSine2) {
     mode = BreakMode::Rotation;
     return true;

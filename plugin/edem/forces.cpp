@@ -11,7 +11,8 @@ void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Re
   const Vec3<Real> elastic = sign * load.elastic, damping = sign * load.damping;
   const Vec3<Real> all = elastic + damping;
   const Vec3<Real> elasticTorque = sign * load.elasticTorque, dampingTorque = sign * load.dampingTorque;
-  const auto add = [&](std::uint32_t i, const Vec3<Real>& f, const Vec3<Real>& fd, const Vec3<Real>& arm, Real side) {
+  const auto add = [&](std::uint32_t i, const Vec3<Real>& f, const Vec3<Real>& fd, const Vec3<Real>& arm,
+                       Real side) {
     body.force[i] += f;
     body.dampingForce[i] += fd;
     body.torque[i] += arm.cross(all) + side * (elasticTorque + dampingTorque);
@@ -23,7 +24,8 @@ void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Re
 
 /// The anchor's impulse on its element, about the books' centre.
 template <class Real>
-void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, double signedKick, Books& books) {
+void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, double signedKick,
+                Books& books) {
   const std::uint32_t i = body.springs[s].first;
   const Vec3<Real> force = load.elastic + load.damping;
   const Vec3<Real> torque = load.armFirst.cross(force) + load.elasticTorque + load.dampingTorque;
@@ -41,7 +43,8 @@ struct PairTouch {
   Real power = 0;                  ///< of the elastic force [W]
 };
 
-/// Contact distance D of a pair, DESIGN 3.2: own to joined pairs and to pairs overlapping at rest, and growing with their distance.
+/// Contact distance D of a pair, DESIGN 3.2: own to joined pairs and to pairs overlapping at rest, and
+/// growing with their distance.
 template <class Real>
 Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance) {
   const Real free = a.radius + b.radius;
@@ -83,7 +86,8 @@ PairTouch<Real> touchPair(const PairEntry& entry, const Vec3<Real>& offset, Body
 }
 
 template <class Real>
-void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body<Real>& b, std::uint32_t j, Real sign) {
+void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body<Real>& b, std::uint32_t j,
+              Real sign) {
   const Vec3<Real> damping = sign * touch.force.damping;
   const Vec3<Real> all = sign * touch.force.elastic + damping;
   a.force[i] -= all;
@@ -91,7 +95,8 @@ void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body
   a.dampingForce[i] -= damping;
   b.dampingForce[j] += damping;
   // The elastic part is along the arms and turns nothing.
-  const Vec3<Real> torqueFirst = -touch.armFirst.cross(damping), torqueSecond = touch.armSecond.cross(damping);
+  const Vec3<Real> torqueFirst = -touch.armFirst.cross(damping),
+                   torqueSecond = touch.armSecond.cross(damping);
   a.torque[i] += torqueFirst;
   b.torque[j] += torqueSecond;
   a.dampingTorque[i] += torqueFirst;
@@ -208,7 +213,8 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
     books.elastic -= energy;
     books.fracture += energy + 0.5 * kick * double(load.power);
 
-    const Eigen::Vector3d at = body.origin + (body.position[spring.first] + load.armFirst).template cast<double>();
+    const Eigen::Vector3d at =
+        body.origin + (body.position[spring.first] + load.armFirst).template cast<double>();
     report.broken.push_back({body.id, s, body.overloadMode[k], energy, at});
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, -kick, books);

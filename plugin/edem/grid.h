@@ -1,5 +1,5 @@
-// A uniform grid over points, hashed so that it has no bounds. Rebuilt whole by counting sort; no allocation once its
-// vectors have grown to the number of points.
+// A uniform grid over points, hashed so that it has no bounds. Rebuilt whole by counting sort; no allocation
+// once its vectors have grown to the number of points.
 #pragma once
 
 #include <bit>
@@ -37,7 +37,8 @@ class Grid {
   }
 
   Cell cellOf(const Vec3<Real>& p) const {
-    return Cell(clampedFloor(p.x() * m_inverse), clampedFloor(p.y() * m_inverse), clampedFloor(p.z() * m_inverse));
+    return Cell(clampedFloor(p.x() * m_inverse), clampedFloor(p.y() * m_inverse),
+                clampedFloor(p.z() * m_inverse));
   }
 
   /// Calls visit(index) for every point in `cell`, in rising order of index.
@@ -73,7 +74,9 @@ class Grid {
   }
   std::uint32_t bucket(const Cell& c) const {
     // Three large primes, Teschner et al. 2003.
-    return (std::uint32_t(c.x()) * 73856093u ^ std::uint32_t(c.y()) * 19349663u ^ std::uint32_t(c.z()) * 83492791u) & m_mask;
+    return (std::uint32_t(c.x()) * 73856093u ^ std::uint32_t(c.y()) * 19349663u ^
+            std::uint32_t(c.z()) * 83492791u) &
+           m_mask;
   }
 
   Real m_inverse = 1;

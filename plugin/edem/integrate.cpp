@@ -7,8 +7,8 @@
 namespace rubble::edem {
 namespace {
 
-/// v + dv with what the addition lost kept in `carry` (Kahan). In float, gravity's tiny kicks would else be rounded
-/// the same way hundreds of times in a row.
+/// v + dv with what the addition lost kept in `carry` (Kahan). In float, gravity's tiny kicks would else be
+/// rounded the same way hundreds of times in a row.
 template <class Real>
 Vec3<Real> addCompensated(const Vec3<Real>& v, const Vec3<Real>& dv, Vec3<Real>& carry) {
   const Vec3<Real> wanted = dv + carry;
@@ -39,13 +39,14 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
   const Vec3<Real> fall = (kick * gravity).template cast<Real>();
   Real furthest2 = 0;
   double mass = 0, kinetic = 0, lost = 0, lostNext = 0;
-  Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero(), spinning = Eigen::Vector3d::Zero();
+  Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero(),
+                  spinning = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     if (!body.alive[i]) continue;
     const Vec3<Real> oldVelocity = body.velocity[i], oldSpin = body.spin[i];
-    body.velocity[i] = addCompensated<Real>(oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall,
-                                            body.velocityCarry[i]);
+    body.velocity[i] = addCompensated<Real>(
+        oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall, body.velocityCarry[i]);
     body.spin[i] = oldSpin + (kickTime * body.inverseInertia[i]) * body.torque[i];
     const Vec3<Real> position = body.position[i];
     body.displacement[i] += stepTime * body.velocity[i];
@@ -54,7 +55,8 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
     furthest2 = moved2 > furthest2 || !(moved2 == moved2) ? moved2 : furthest2;
 
     const double m = body.mass[i], inertia = body.inertia[i];
-    const Eigen::Vector3d v0 = oldVelocity.template cast<double>(), v1 = body.velocity[i].template cast<double>();
+    const Eigen::Vector3d v0 = oldVelocity.template cast<double>(),
+                          v1 = body.velocity[i].template cast<double>();
     const Eigen::Vector3d w0 = oldSpin.template cast<double>(), w1 = body.spin[i].template cast<double>();
     const Eigen::Vector3d x = position.template cast<double>();
     mass += m;
@@ -108,7 +110,8 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
   }
   for (const std::uint32_t i : body.crushing) {
     const double m = body.mass[i];
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>(), w = body.spin[i].template cast<double>();
+    const Eigen::Vector3d v = body.velocity[i].template cast<double>(),
+                          w = body.spin[i].template cast<double>();
     const double kinetic = 0.5 * (m * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
     const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(m * v) + body.inertia[i] * w;
     books.leftMass += m;
@@ -125,8 +128,10 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
   }
 }
 
-template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<float>>, Books&);
-template double integrate(Body<double>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<double>>, Books&);
+template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<float>>,
+                         Books&);
+template double integrate(Body<double>&, double, double, const Eigen::Vector3d&,
+                          std::span<const Vec3<double>>, Books&);
 template void removeCrushed(Body<float>&, std::size_t, Books&, TickReport&);
 template void removeCrushed(Body<double>&, std::size_t, Books&, TickReport&);
 

@@ -8,9 +8,10 @@ namespace {
 /// The pair's place in Body::range, or kNoPair for two elements that are free of each other.
 template <class Real>
 std::uint32_t pairOf(const Body<Real>& body, std::uint32_t i, std::uint32_t j) {
-  const auto begin = body.pairs.begin() + body.pairOffsets[i], end = body.pairs.begin() + body.pairOffsets[i + 1];
-  const auto found =
-      std::lower_bound(begin, end, j, [](const PairIndex& p, std::uint32_t partner) { return p.partner < partner; });
+  const auto begin = body.pairs.begin() + body.pairOffsets[i],
+             end = body.pairs.begin() + body.pairOffsets[i + 1];
+  const auto found = std::lower_bound(
+      begin, end, j, [](const PairIndex& p, std::uint32_t partner) { return p.partner < partner; });
   return found != end && found->partner == j ? found->pair : kNoPair;
 }
 

@@ -1,5 +1,6 @@
-// Which elements may touch: candidate pairs within a body and between bodies, by a uniform grid (paper 4.1) with a skin, so that they
-// last several substeps. This is the plain reference; faster lists must give the same contacts.
+// Which elements may touch: candidate pairs within a body and between bodies, by a uniform grid (paper 4.1)
+// with a skin, so that they last several substeps. This is the plain reference; faster lists must give the
+// same contacts.
 #pragma once
 
 #include <memory>
@@ -34,7 +35,8 @@ struct ElementGrid {
 template <class Real>
 class PairLists {
  public:
-  /// Lists anew. `skin` is added to the contact distance; the lists hold until an element moved half of it [m].
+  /// Lists anew. `skin` is added to the contact distance; the lists hold until an element moved half of it
+  /// [m].
   void build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin);
   /// A spring broke: its pair may touch from now on.
   void addBroken(std::uint32_t body, const PairEntry& entry);
@@ -45,13 +47,13 @@ class PairLists {
 
  private:
   void listWithin(const Body<Real>& body, std::uint32_t place, PairList& list);
-  void listBetween(const Body<Real>& a, const Body<Real>& b, const ElementGrid<Real>& gridA, const ElementGrid<Real>& gridB,
-                   PairList& list);
+  void listBetween(const Body<Real>& a, const Body<Real>& b, const ElementGrid<Real>& gridA,
+                   const ElementGrid<Real>& gridB, PairList& list);
 
   double m_skin = 0;
   std::vector<ElementGrid<Real>> m_grids;
-  std::vector<PairList> m_lists;      // m_lists[place] is within body `place`; those between bodies stand behind
-  std::vector<PairList> m_spare;      // lists whose memory is kept for the next build
+  std::vector<PairList> m_lists;  // m_lists[place] is within body `place`; those between bodies stand behind
+  std::vector<PairList> m_spare;  // lists whose memory is kept for the next build
 };
 
 extern template class PairLists<float>;

@@ -27,7 +27,8 @@ bool everyFragmentAnchored(const Body<Real>& body) {
   return true;
 }
 
-/// Stiffness of the springs at rest: dx = u_K - u_I - (theta_I + theta_K) x d / 2, relative rotation theta_K - theta_I.
+/// Stiffness of the springs at rest: dx = u_K - u_I - (theta_I + theta_K) x d / 2, relative rotation theta_K
+/// - theta_I.
 template <class Real>
 Matrix assemble(const Body<Real>& body) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -35,7 +36,8 @@ Matrix assemble(const Body<Real>& body) {
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
     if (!body.intact[s]) continue;
     const Spring<Real>& spring = body.springs[s];
-    const Eigen::Matrix3d halfArm = 0.5 * cross(spring.rest.template cast<double>());  // -(theta x d)/2 = halfArm theta
+    const Eigen::Matrix3d halfArm =
+        0.5 * cross(spring.rest.template cast<double>());  // -(theta x d)/2 = halfArm theta
     Eigen::Matrix<double, 6, 12> b = Eigen::Matrix<double, 6, 12>::Zero();
     b.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
     b.block<3, 3>(0, 3) = halfArm;
@@ -44,19 +46,22 @@ Matrix assemble(const Body<Real>& body) {
     b.block<3, 3>(3, 3) = -Eigen::Matrix3d::Identity();
     b.block<3, 3>(3, 9) = Eigen::Matrix3d::Identity();
     Eigen::Matrix<double, 6, 1> k;
-    k << Eigen::Vector3d::Constant(double(spring.stiffness)), Eigen::Vector3d::Constant(double(spring.rotational));
+    k << Eigen::Vector3d::Constant(double(spring.stiffness)),
+        Eigen::Vector3d::Constant(double(spring.rotational));
     const Eigen::Matrix<double, 12, 12> block = b.transpose() * k.asDiagonal() * b;
     const int ends = body.isAnchor(s) ? 1 : 2;
-    const std::array<Eigen::Index, 2> base = {6 * Eigen::Index(spring.first), 6 * Eigen::Index(spring.second)};
+    const std::array<Eigen::Index, 2> base = {6 * Eigen::Index(spring.first),
+                                              6 * Eigen::Index(spring.second)};
     for (int p = 0; p < ends; ++p)
       for (int q = 0; q < ends; ++q)
         for (int i = 0; i < 6; ++i)
           for (int j = 0; j < 6; ++j)
-            entries.emplace_back(base[std::size_t(p)] + i, base[std::size_t(q)] + j, block(6 * p + i, 6 * q + j));
+            entries.emplace_back(base[std::size_t(p)] + i, base[std::size_t(q)] + j,
+                                 block(6 * p + i, 6 * q + j));
   }
   const Eigen::Index unknowns = 6 * Eigen::Index(body.elementCount());
-  // A lone chain without k_rot has modes without stiffness; a crushed element has none at all. A tiny diagonal keeps
-  // the factor definite and moves the solution by the same tiny share.
+  // A lone chain without k_rot has modes without stiffness; a crushed element has none at all. A tiny
+  // diagonal keeps the factor definite and moves the solution by the same tiny share.
   double largest = 0;
   for (const auto& e : entries) largest = std::max(largest, std::abs(e.value()));
   for (Eigen::Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 1e-12 * largest);
@@ -67,8 +72,8 @@ Matrix assemble(const Body<Real>& body) {
 
 /// Force and torque on every element in the present state, gravity included; all in double.
 template <class Real>
-Vector residualForce(const Body<Real>& body, const Eigen::Vector3d& gravity, const std::vector<Vec3<double>>& u,
-                     const std::vector<Quat<double>>& rotation) {
+Vector residualForce(const Body<Real>& body, const Eigen::Vector3d& gravity,
+                     const std::vector<Vec3<double>>& u, const std::vector<Quat<double>>& rotation) {
   Vector force = Vector::Zero(6 * Eigen::Index(body.elementCount()));
   for (std::size_t i = 0; i < body.elementCount(); ++i)
     if (body.alive[i]) force.segment<3>(6 * Eigen::Index(i)) = body.mass[i] * gravity;
@@ -86,12 +91,15 @@ Vector residualForce(const Body<Real>& body, const Eigen::Vector3d& gravity, con
       return e;
     };
     const bool anchor = body.isAnchor(s);
-    const SpringLoad<double> load = springLoad(spring, end(own.first), anchor ? SpringEnd<double>{} : end(own.second));
+    const SpringLoad<double> load =
+        springLoad(spring, end(own.first), anchor ? SpringEnd<double>{} : end(own.second));
     force.segment<3>(6 * Eigen::Index(own.first)) += load.elastic;
-    force.segment<3>(6 * Eigen::Index(own.first) + 3) += load.armFirst.cross(load.elastic) + load.elasticTorque;
+    force.segment<3>(6 * Eigen::Index(own.first) + 3) +=
+        load.armFirst.cross(load.elastic) + load.elasticTorque;
     if (anchor) continue;
     force.segment<3>(6 * Eigen::Index(own.second)) -= load.elastic;
-    force.segment<3>(6 * Eigen::Index(own.second) + 3) += load.armSecond.cross(load.elastic) - load.elasticTorque;
+    force.segment<3>(6 * Eigen::Index(own.second) + 3) +=
+        load.armSecond.cross(load.elastic) - load.elasticTorque;
   }
   return force;
 }
@@ -121,7 +129,8 @@ bool prestress(Body<Real>& body, const Eigen::Vector3d& gravity, double* residua
     const Vector left = residualForce(body, gravity, u, rotation);
     *residual = 0;
     for (std::size_t i = 0; i < body.elementCount(); ++i)
-      *residual = std::max(*residual, left.segment<3>(6 * Eigen::Index(i)).norm() / (body.mass[i] * gravity.norm()));
+      *residual =
+          std::max(*residual, left.segment<3>(6 * Eigen::Index(i)).norm() / (body.mass[i] * gravity.norm()));
   }
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     body.displacement[i] = u[i].cast<Real>();

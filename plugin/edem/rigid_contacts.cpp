@@ -8,8 +8,9 @@
 namespace rubble::edem {
 namespace {
 
-/// Share of m / h^2 that a contact's stiffness may reach against a light rigid body of mass m. 1 lets a body of 1e-4 element masses
-/// gain energy a hundredfold, 0.02 none (measured, plugin/README.md "Light rigid bodies").
+/// Share of m / h^2 that a contact's stiffness may reach against a light rigid body of mass m. 1 lets a body
+/// of 1e-4 element masses gain energy a hundredfold, 0.02 none (measured, plugin/README.md "Light rigid
+/// bodies").
 constexpr double kLightBodyShare = 0.02;
 
 /// Surface nearest to a world point over all parts of a proxy.
@@ -63,7 +64,8 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
 }
 
 template <class Real>
-void RigidContacts<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies, const PairLists<Real>& lists) {
+void RigidContacts<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies,
+                                const PairLists<Real>& lists) {
   m_candidates.clear();
   for (std::uint32_t p = 0; p < m_proxies.size(); ++p) {
     const RigidProxy& proxy = m_proxies[p];
@@ -73,7 +75,8 @@ void RigidContacts<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bod
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
       const Body<Real>& body = *bodies[b];
       if (body.asleep) continue;
-      // From now on the element may move a whole skin (from one side of its listed place to the other) and the proxy half.
+      // From now on the element may move a whole skin (from one side of its listed place to the other) and
+      // the proxy half.
       const double reach = double(body.radius) + 1.5 * lists.skin();
       const auto consider = [&](std::uint32_t i) {
         if (!body.alive[i]) return;
@@ -101,20 +104,22 @@ bool RigidContacts<Real>::expired(double skin) const {
   for (std::size_t p = 0; p < m_proxies.size(); ++p) {
     const RigidProxy& proxy = m_proxies[p];
     const double angle = m_states[p].listedOrientation.angularDistance(proxy.orientation);
-    if ((proxy.position - m_states[p].listedPosition).norm() + angle * proxy.reach() > 0.5 * skin) return true;
+    if ((proxy.position - m_states[p].listedPosition).norm() + angle * proxy.reach() > 0.5 * skin)
+      return true;
   }
   return false;
 }
 
 template <class Real>
-double RigidContacts<Real>::contactStiffness(const RigidProxy& proxy, const Body<Real>& body, double step) const {
+double RigidContacts<Real>::contactStiffness(const RigidProxy& proxy, const Body<Real>& body,
+                                             double step) const {
   if (!proxy.isDynamic()) return body.contactStiffness;
   return std::min(body.contactStiffness, kLightBodyShare / (proxy.inverseMass * step * step));
 }
 
 template <class Real>
-bool RigidContacts<Real>::touch(RigidProxy& proxy, Body<Real>& body, std::uint32_t element, double kick, Touch& out,
-                                Eigen::Vector3d& at) const {
+bool RigidContacts<Real>::touch(RigidProxy& proxy, Body<Real>& body, std::uint32_t element, double kick,
+                                Touch& out, Eigen::Vector3d& at) const {
   if (!body.alive[element]) return false;
   const Eigen::Vector3d x = body.origin + body.position[element].template cast<double>();
   const SurfacePoint surface = nearestPart(proxy, x);
@@ -139,7 +144,8 @@ bool RigidContacts<Real>::touch(RigidProxy& proxy, Body<Real>& body, std::uint32
   law.stiffness = contactStiffness(proxy, body, kick);
   law.damping = dashpot(body.material.contactDamping, law.stiffness, reduced);
   law.friction = body.model.coulombFriction ? proxy.friction * body.material.friction : -1.0;
-  const ContactForce<double> force = contactForce<double>(law, overlap, surface.normal, velocity - surfaceVelocity);
+  const ContactForce<double> force =
+      contactForce<double>(law, overlap, surface.normal, velocity - surfaceVelocity);
   out.element = element;
   out.force = force.elastic + force.damping;
   out.torque = arm.cross(out.force);
@@ -147,7 +153,8 @@ bool RigidContacts<Real>::touch(RigidProxy& proxy, Body<Real>& body, std::uint32
 }
 
 template <class Real>
-void RigidContacts<Real>::accumulate(std::span<const std::unique_ptr<Body<Real>>> bodies, double kick, Books& books) {
+void RigidContacts<Real>::accumulate(std::span<const std::unique_ptr<Body<Real>>> bodies, double kick,
+                                     Books& books) {
   m_touches.clear();
   for (ProxyState& s : m_states) s.force = s.torque = Eigen::Vector3d::Zero();
   for (const Candidate& c : m_candidates) {
@@ -157,7 +164,8 @@ void RigidContacts<Real>::accumulate(std::span<const std::unique_ptr<Body<Real>>
     Eigen::Vector3d at;
     if (!touch(proxy, body, c.element, kick, t, at)) continue;
     t.body = c.body;
-    // The element gets the force in its own scalar; what is booked and given to the rigid body is exactly that.
+    // The element gets the force in its own scalar; what is booked and given to the rigid body is exactly
+    // that.
     const Vec3<Real> force = t.force.template cast<Real>(), torque = t.torque.template cast<Real>();
     t.force = force.template cast<double>();
     t.torque = torque.template cast<double>();
@@ -209,7 +217,8 @@ void RigidContacts<Real>::integrate(double kick, double step) {
     const double angle = proxy.spin.norm() * step;
     if (angle > 0)
       proxy.orientation =
-          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation).normalized();
+          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
+              .normalized();
   }
 }
 
@@ -222,14 +231,16 @@ void RigidContacts<Real>::addRates(const Body<Real>& body, std::uint32_t place, 
     const double k = contactStiffness(proxy, body, step);
     const double inverse = double(body.inverseMass[c.element]);
     rates[c.element].stiffness += k * inverse;
-    rates[c.element].damping += dashpot(body.material.contactDamping, k, 1 / (inverse + proxy.inverseMass)) * inverse;
+    rates[c.element].damping +=
+        dashpot(body.material.contactDamping, k, 1 / (inverse + proxy.inverseMass)) * inverse;
   }
 }
 
 template <class Real>
 double RigidContacts<Real>::maxSpeed() const {
   double fastest = 0;
-  for (const RigidProxy& p : m_proxies) fastest = std::max(fastest, p.velocity.norm() + p.spin.norm() * p.reach());
+  for (const RigidProxy& p : m_proxies)
+    fastest = std::max(fastest, p.velocity.norm() + p.spin.norm() * p.reach());
   return fastest;
 }
 

@@ -1,5 +1,5 @@
-// Elements against the rigid bodies of the host world. The bodies are sub-stepped copies (RigidProxy), so that a fast one is swept
-// through the substeps and does not tunnel.
+// Elements against the rigid bodies of the host world. The bodies are sub-stepped copies (RigidProxy), so
+// that a fast one is swept through the substeps and does not tunnel.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "edem/pair_lists.h"
-#include "edem/stages.h"
 #include "edem/rigid_proxy.h"
+#include "edem/stages.h"
 
 namespace rubble::edem {
 
@@ -22,7 +22,8 @@ class RigidContacts {
   /// True when a proxy has moved more than half the skin since build.
   bool expired(double skin) const;
 
-  /// Contact forces on elements and proxies (paper 3.1.2, "interaction with other objects"); books impulses and the first half of the work.
+  /// Contact forces on elements and proxies (paper 3.1.2, "interaction with other objects"); books impulses
+  /// and the first half of the work.
   void accumulate(std::span<const std::unique_ptr<Body<Real>>> bodies, double kick, Books& books);
   /// Second half of the work, once the elements have their new velocities.
   void bookSecondHalf(std::span<const std::unique_ptr<Body<Real>>> bodies, double kick, Books& books) const;
@@ -30,7 +31,8 @@ class RigidContacts {
   void integrate(double kick, double step);
 
   /// Adds the stiffness and damping of present and near contacts, per element of body `place`.
-  void addRates(const Body<Real>& body, std::uint32_t place, double step, std::span<struct ElementRates> rates) const;
+  void addRates(const Body<Real>& body, std::uint32_t place, double step,
+                std::span<struct ElementRates> rates) const;
   /// Largest speed of a dynamic proxy's surface [m/s].
   double maxSpeed() const;
 
@@ -43,13 +45,14 @@ class RigidContacts {
     Eigen::Vector3d force, torque;  // on the element
   };
   struct ProxyState {
-    Eigen::Vector3d force, torque;        // on the rigid body in this substep
+    Eigen::Vector3d force, torque;  // on the rigid body in this substep
     Eigen::Vector3d listedPosition;
     Eigen::Quaterniond listedOrientation;
   };
 
   double contactStiffness(const RigidProxy& proxy, const Body<Real>& body, double step) const;
-  bool touch(RigidProxy& proxy, Body<Real>& body, std::uint32_t element, double kick, Touch& out, Eigen::Vector3d& at) const;
+  bool touch(RigidProxy& proxy, Body<Real>& body, std::uint32_t element, double kick, Touch& out,
+             Eigen::Vector3d& at) const;
 
   std::span<RigidProxy> m_proxies;
   std::vector<ProxyState> m_states;

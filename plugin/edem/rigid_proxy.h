@@ -1,4 +1,5 @@
-// A rigid body of the host world as the substeps see it: a copy that moves through them and collects what the elements do to it.
+// A rigid body of the host world as the substeps see it: a copy that moves through them and collects what the
+// elements do to it.
 #pragma once
 
 #include <span>
@@ -12,25 +13,25 @@ struct RigidProxy {
   // Given by the host before a tick.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the centre of mass [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s]
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                 ///< [rad/s]
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();         ///< gravity and the application's forces [m/s^2]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m/s]
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();          ///< [rad/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< gravity and the application's forces [m/s^2]
   Eigen::Vector3d angularAcceleration = Eigen::Vector3d::Zero();  ///< [rad/s^2]
-  double inverseMass = 0;  ///< 0: static or moved by the application [1/kg]
+  double inverseMass = 0;                                    ///< 0: static or moved by the application [1/kg]
   Eigen::Vector3d inverseInertia = Eigen::Vector3d::Zero();  ///< along its own axes [1/(kg m^2)]
-  double friction = 0.5;   ///< mu of the pair is this times the element's, as Bullet combines them
+  double friction = 0.5;  ///< mu of the pair is this times the element's, as Bullet combines them
   std::vector<Collider> parts;
 
   // Collected by the substeps.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();         ///< on the rigid body [N s]
   Eigen::Vector3d angularImpulse = Eigen::Vector3d::Zero();  ///< about its centre of mass [N m s]
-  Eigen::Vector3d contactPoint = Eigen::Vector3d::Zero();    ///< impulse-weighted sum of contact points [N s m]
-  double contactWeight = 0;                                  ///< sum of the sizes of the contact impulses [N s]
-  std::vector<std::uint32_t> touched;                        ///< bodies that it pressed in this tick (ids)
+  Eigen::Vector3d contactPoint = Eigen::Vector3d::Zero();  ///< impulse-weighted sum of contact points [N s m]
+  double contactWeight = 0;                                ///< sum of the sizes of the contact impulses [N s]
+  std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
 
   bool isDynamic() const { return inverseMass > 0; }
   Eigen::AlignedBox3d bounds() const;  ///< of all parts, in the world
-  double reach() const;                ///< furthest point of its parts from the centre of mass [m]; planes count 0
+  double reach() const;  ///< furthest point of its parts from the centre of mass [m]; planes count 0
 };
 
 }  // namespace rubble::edem

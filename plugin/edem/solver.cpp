@@ -46,7 +46,8 @@ class SolverOf final : public Solver {
     if (substeps > m_def.maxSubstepsPerFrame) {
       char text[320];
       std::snprintf(text, sizeof text,
-                    "material %s: stable substep is %.3g s, which is %.0f substeps in 1/60 s; max_substeps_per_frame is %d: raise "
+                    "material %s: stable substep is %.3g s, which is %.0f substeps in 1/60 s; "
+                    "max_substeps_per_frame is %d: raise "
                     "it, or lower the material's youngsModulus, or use larger elements",
                     def.material.name.c_str(), step, substeps, m_def.maxSubstepsPerFrame);
       throw Error(text);
@@ -63,6 +64,7 @@ class SolverOf final : public Solver {
     const std::size_t place = placeOf(id);
     bookLeaving(*m_bodies[place]);
     m_bodies.erase(m_bodies.begin() + std::ptrdiff_t(place));
+    m_lists = {};  // they name bodies by place
     m_listsStale = true;
   }
 
@@ -74,7 +76,8 @@ class SolverOf final : public Solver {
 
   double stableStep() const override {
     double step = std::numeric_limits<double>::infinity();
-    for (const auto& body : m_bodies) step = std::min(step, m_def.substepSafety * bodyBound(*body).stableStep());
+    for (const auto& body : m_bodies)
+      step = std::min(step, m_def.substepSafety * bodyBound(*body).stableStep());
     return step;
   }
   bool anyAwake() const override {
@@ -89,7 +92,9 @@ class SolverOf final : public Solver {
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {
     return of(id).velocity[i].template cast<double>();
   }
-  Eigen::Vector3d spin(std::uint32_t id, std::size_t i) const override { return of(id).spin[i].template cast<double>(); }
+  Eigen::Vector3d spin(std::uint32_t id, std::size_t i) const override {
+    return of(id).spin[i].template cast<double>();
+  }
   Eigen::Quaterniond orientation(std::uint32_t id, std::size_t i) const override {
     const Body<Real>& b = of(id);
     return b.rotation[i].template cast<double>() * b.turn;
@@ -106,14 +111,17 @@ class SolverOf final : public Solver {
   }
   double maxSpeed(std::uint32_t id) const override { return speedOf(of(id)); }
   double radius(std::uint32_t id) const override { return double(of(id).radius); }
-  void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) const override;
+  void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
+                  std::vector<std::uint32_t>& out) const override;
 
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_bodies[placeOf(id)];
     if (body.asleep == asleep) return;
     body.asleep = asleep;
     m_listsStale = true;
-    if (asleep) bookSlept(body, m_books);
+    if (!asleep) return;
+    body.sleepingElastic = elasticOf(body);
+    bookSlept(body, m_books);
   }
 
   std::uint64_t hash() const override {
@@ -147,7 +155,8 @@ class SolverOf final : public Solver {
     for (std::size_t i = 0; i < body.elementCount(); ++i) {
       ElementRates contact = rates[i];
       contact.stiffness += body.contactStiffness / body.mass[i];
-      contact.damping += dashpot(body.material.contactDamping, body.contactStiffness, body.mass[i]) / body.mass[i];
+      contact.damping +=
+          dashpot(body.material.contactDamping, body.contactStiffness, body.mass[i]) / body.mass[i];
       bound.add(contact, {});
     }
     return bound;
@@ -155,8 +164,22 @@ class SolverOf final : public Solver {
   static double speedOf(const Body<Real>& b) {
     double fastest = 0;
     for (std::size_t i = 0; i < b.elementCount(); ++i)
-      if (b.alive[i]) fastest = std::max(fastest, double(b.velocity[i].norm()) + double(b.radius) * double(b.spin[i].norm()));
+      if (b.alive[i])
+        fastest =
+            std::max(fastest, double(b.velocity[i].norm()) + double(b.radius) * double(b.spin[i].norm()));
     return fastest;
+  }
+
+  /// Elastic energy of a body as it stands: springs, and the contacts among its elements that are listed [J].
+  double elasticOf(const Body<Real>& body) {
+    Books probe;
+    Body<Real> copy = body;
+    beginSubstep(copy);
+    double elastic = accumulateSprings(copy, 0, false, probe);
+    for (const PairList& l : m_lists.lists())
+      if (l.first == l.second && m_bodies[l.first].get() == &body)
+        elastic += accumulateContacts(l, copy, copy);
+    return elastic;
   }
 
   void bookNew(const Body<Real>& body);
@@ -179,7 +202,8 @@ class SolverOf final : public Solver {
   std::string m_failure;
 };
 
-/// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed afterwards.
+/// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed
+/// afterwards.
 template <class Real>
 void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) {
   m_report.broken.clear();
@@ -216,7 +240,8 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
 
   m_books.elastic = 0;
   for (auto& body : m_bodies)
-    if (!body->asleep) m_books.elastic += accumulateSprings(*body, kick, m_def.breaking, m_books);
+    m_books.elastic +=
+        body->asleep ? body->sleepingElastic : accumulateSprings(*body, kick, m_def.breaking, m_books);
   for (PairList& l : m_lists.lists())
     m_books.elastic += accumulateContacts(l, *m_bodies[l.first], *m_bodies[l.second]);
   m_rigid.accumulate(m_bodies, kick, m_books);
@@ -229,7 +254,8 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
     anyCrushed = anyCrushed || !body->crushing.empty();
   }
   if (anyCrushed)
-    for (PairList& l : m_lists.lists()) releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], kick, m_books);
+    for (PairList& l : m_lists.lists())
+      releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], kick, m_books);
   for (std::uint32_t b = 0; b < m_bodies.size(); ++b)
     if (!m_bodies[b]->asleep) applyBreaks(*m_bodies[b], b, kick, m_lists, m_books, m_report);
 
@@ -243,7 +269,8 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
     }
     const Real moved2 =
         integrate(body, kick, step, gravity, std::span<const Vec3<Real>>(m_lists.grid(b).listed), m_books);
-    if (!std::isfinite(moved2)) m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
+    if (!std::isfinite(moved2))
+      m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
     m_listsStale = m_listsStale || !(moved2 <= Real(0.25 * m_lists.skin() * m_lists.skin()));
   }
   m_rigid.bookSecondHalf(m_bodies, kick, m_books);
@@ -333,7 +360,8 @@ void SolverOf<Real>::bookNew(const Body<Real>& body) {
   double mass = 0, kinetic = 0, size = 0;
   Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>(), w = body.spin[i].template cast<double>();
+    const Eigen::Vector3d v = body.velocity[i].template cast<double>(),
+                          w = body.spin[i].template cast<double>();
     const double m = body.mass[i];
     mass += m;
     kinetic += 0.5 * (m * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
@@ -378,7 +406,8 @@ void SolverOf<Real>::bookLeaving(const Body<Real>& body) {
 }
 
 template <class Real>
-void SolverOf<Real>::elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) const {
+void SolverOf<Real>::elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
+                                std::vector<std::uint32_t>& out) const {
   const Body<Real>& body = of(id);
   out.clear();
   for (std::uint32_t i = 0; i < body.elementCount(); ++i)

@@ -1,5 +1,6 @@
-// The plain explicit EDEM solver: all bodies of one world, advanced a tick at a time. It stays as the reference of faster ones.
-// `Solver` hides the scalar; SolverOf<float> and SolverOf<double> are the same source.
+// The plain explicit EDEM solver: all bodies of one world, advanced a tick at a time. It stays as the
+// reference of faster ones. `Solver` hides the scalar; SolverOf<float> and SolverOf<double> are the same
+// source.
 #pragma once
 
 #include <memory>
@@ -24,7 +25,7 @@ struct SolverDef {
 /// Motion and shape of one body for its host, world frame, SI.
 struct BodyView {
   std::span<const std::uint8_t> alive;
-  std::span<const std::uint8_t> intact;      ///< springs, then anchors
+  std::span<const std::uint8_t> intact;  ///< springs, then anchors
   std::span<const std::uint32_t> fragment;
   std::span<const double> mass;
   std::uint32_t fragments = 0, crushed = 0, broken = 0;
@@ -36,12 +37,13 @@ class Solver {
   static std::unique_ptr<Solver> make(Precision precision, const SolverDef& def);
   virtual ~Solver() = default;
 
-  /// Adds a body; an anchored one is pre-stressed under `gravity`. Throws rubble::Error naming the stable substep when the body
-  /// needs more than maxSubstepsPerFrame. Returns its id.
+  /// Adds a body; an anchored one is pre-stressed under `gravity`. Throws rubble::Error naming the stable
+  /// substep when the body needs more than maxSubstepsPerFrame. Returns its id.
   virtual std::uint32_t addBody(const BodyDef& def, const Eigen::Vector3d& gravity) = 0;
   virtual void removeBody(std::uint32_t id) = 0;
 
-  /// Advances all bodies that are awake by `dt` seconds. `proxies` move along and collect what they are given.
+  /// Advances all bodies that are awake by `dt` seconds. `proxies` move along and collect what they are
+  /// given.
   virtual void tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) = 0;
   /// What the last tick did.
   virtual const TickReport& report() const = 0;
@@ -58,11 +60,15 @@ class Solver {
   virtual Eigen::Vector3d velocity(std::uint32_t id, std::size_t element) const = 0;
   virtual Eigen::Vector3d spin(std::uint32_t id, std::size_t element) const = 0;
   virtual Eigen::Quaterniond orientation(std::uint32_t id, std::size_t element) const = 0;
-  virtual Eigen::AlignedBox3d bounds(std::uint32_t id) const = 0;  ///< of the living elements' spheres; empty if none
-  virtual double maxSpeed(std::uint32_t id) const = 0;  ///< of element centres, and of their surfaces by spin [m/s]
+  virtual Eigen::AlignedBox3d bounds(
+      std::uint32_t id) const = 0;  ///< of the living elements' spheres; empty if none
+  virtual double maxSpeed(
+      std::uint32_t id) const = 0;  ///< of element centres, and of their surfaces by spin [m/s]
   virtual double radius(std::uint32_t id) const = 0;
-  /// Living elements whose centre lies in the box (indices in rising order within grid cells). The grid is the last tick's.
-  virtual void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) const = 0;
+  /// Living elements whose centre lies in the box (indices in rising order within grid cells). The grid is
+  /// the last tick's.
+  virtual void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
+                          std::vector<std::uint32_t>& out) const = 0;
 
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;

@@ -1,14 +1,15 @@
-// The pore spring (paper 3.1.2, eq. 3) written as an energy, so that force and torque agree and both momenta are kept.
+// The pore spring (paper 3.1.2, eq. 3) written as an energy, so that force and torque agree and both momenta
+// are kept.
 //
-//        I            d0             K          d  = rest vector I -> K in the body's frame, turned with the frame
-//        o--------------------------->o          dx = gap between the two elements' ends of the spring:
+//        I            d0             K          d  = rest vector I -> K in the body's frame, turned with the
+//        frame o--------------------------->o          dx = gap between the two elements' ends of the spring:
 //         \__ a_I __/ \__ a_K __/                 (x_K - x_I) - (R_I + R_K) d0 / 2
 //
 //   U = k/2 |dx|^2 + k_rot (1 - cos phi),  phi the relative rotation.
 //
-// Everything is differences from the body's rigid frame: displacements u, relative rotations R' (see body.h), so that float keeps
-// its digits for the strain. DEVIATION: k_rot is not in the paper; without it a lone chain has no stiffness in
-// bending. Model::rotationalStiffness switches it off (k_rot = 0).
+// Everything is differences from the body's rigid frame: displacements u, relative rotations R' (see body.h),
+// so that float keeps its digits for the strain. DEVIATION: k_rot is not in the paper; without it a lone
+// chain has no stiffness in bending. Model::rotationalStiffness switches it off (k_rot = 0).
 #pragma once
 
 #include "edem/types.h"
@@ -18,14 +19,14 @@ namespace rubble::edem {
 /// Constants of one spring. Written at load; `rest` again whenever the body's frame turns.
 template <class Real>
 struct Spring {
-  std::uint32_t first;   ///< element I
-  std::uint32_t second;  ///< element K; an anchor's own element I again (its far end does not move)
-  Vec3<Real> rest;       ///< d0 turned with the frame [m]
-  Real stiffness;        ///< k [N/m]
-  Real rotational;       ///< k_rot [N m]
-  Real damping;          ///< dashpot beside k [N s/m]
+  std::uint32_t first;     ///< element I
+  std::uint32_t second;    ///< element K; an anchor's own element I again (its far end does not move)
+  Vec3<Real> rest;         ///< d0 turned with the frame [m]
+  Real stiffness;          ///< k [N/m]
+  Real rotational;         ///< k_rot [N m]
+  Real damping;            ///< dashpot beside k [N s/m]
   Real rotationalDamping;  ///< dashpot beside k_rot [N m s]
-  Real area;             ///< shared face [m^2]
+  Real area;               ///< shared face [m^2]
 };
 
 /// Motion of one end of a spring.
@@ -40,26 +41,27 @@ struct SpringEnd {
 /// What a spring does now. Forces on I; those on K are the opposite, except the torque arms.
 template <class Real>
 struct SpringLoad {
-  Vec3<Real> gap;             ///< dx [m]
-  Vec3<Real> axis;            ///< rest vector as the two ends now turn it [m]; not normalised
-  Vec3<Real> elastic;         ///< force on I, k dx [N]
-  Vec3<Real> damping;         ///< dashpot force on I [N]
-  Vec3<Real> armFirst;        ///< a_I [m]
-  Vec3<Real> armSecond;       ///< a_K [m]
-  Vec3<Real> elasticTorque;   ///< k_rot sin(phi) n on I; the opposite on K [N m]
-  Vec3<Real> dampingTorque;   ///< on I [N m]
-  Real stretchEnergy;         ///< k/2 |dx|^2 [J]: the terms of eq. (3)
-  Real rotationEnergy;        ///< k_rot (1 - cos phi) [J]
-  Real halfAngleSine2;        ///< sin^2(phi / 2)
-  Real power;                 ///< elastic force . rate of the gap + torque . rate of phi = -dU/dt [W]
+  Vec3<Real> gap;            ///< dx [m]
+  Vec3<Real> axis;           ///< rest vector as the two ends now turn it [m]; not normalised
+  Vec3<Real> elastic;        ///< force on I, k dx [N]
+  Vec3<Real> damping;        ///< dashpot force on I [N]
+  Vec3<Real> armFirst;       ///< a_I [m]
+  Vec3<Real> armSecond;      ///< a_K [m]
+  Vec3<Real> elasticTorque;  ///< k_rot sin(phi) n on I; the opposite on K [N m]
+  Vec3<Real> dampingTorque;  ///< on I [N m]
+  Real stretchEnergy;        ///< k/2 |dx|^2 [J]: the terms of eq. (3)
+  Real rotationEnergy;       ///< k_rot (1 - cos phi) [J]
+  Real halfAngleSine2;       ///< sin^2(phi / 2)
+  Real power;                ///< elastic force . rate of the gap + torque . rate of phi = -dU/dt [W]
 };
 
 /// Force, torque and energy of one spring.
 ///
-/// The arms end where the two halves meet (each holds half of dx), so arm_I + arm_K = x_K - x_I: then the dashpot keeps the
-/// angular momentum too and does not brake a rigid rotation of a stretched spring.
+/// The arms end where the two halves meet (each holds half of dx), so arm_I + arm_K = x_K - x_I: then the
+/// dashpot keeps the angular momentum too and does not brake a rigid rotation of a stretched spring.
 template <class Real>
-SpringLoad<Real> springLoad(const Spring<Real>& spring, const SpringEnd<Real>& first, const SpringEnd<Real>& second) {
+SpringLoad<Real> springLoad(const Spring<Real>& spring, const SpringEnd<Real>& first,
+                            const SpringEnd<Real>& second) {
   SpringLoad<Real> load;
   const Vec3<Real> turnFirst = turned(first.turn, spring.rest);
   const Vec3<Real> turnSecond = turned(second.turn, spring.rest);
@@ -74,8 +76,9 @@ SpringLoad<Real> springLoad(const Spring<Real>& spring, const SpringEnd<Real>& f
   load.damping = spring.damping * gapRate;
   load.stretchEnergy = Real(0.5) * spring.stiffness * load.gap.squaredNorm();
 
-  // Relative rotation q_K conj(q_I) = (sigma, e), e = sin(phi/2) n: the torque k_rot sin(phi) n = 2 k_rot sigma e needs no
-  // inverse trigonometry, and e is a difference of two small numbers only through their own rounding.
+  // Relative rotation q_K conj(q_I) = (sigma, e), e = sin(phi/2) n: the torque k_rot sin(phi) n = 2 k_rot
+  // sigma e needs no inverse trigonometry, and e is a difference of two small numbers only through their own
+  // rounding.
   const Vec3<Real> a = first.turn.vec();
   const Vec3<Real> b = second.turn.vec();
   const Vec3<Real> e = first.turn.w() * b - second.turn.w() * a + a.cross(b);

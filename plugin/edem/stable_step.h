@@ -17,13 +17,15 @@ struct ElementRates {
 template <class Real>
 void springRates(const Body<Real>& body, std::span<ElementRates> rates);
 
-/// Bound of the highest frequency: max over unbroken springs of s_i + s_j (a fixed end: 0), by splitting each mass over its springs
-/// and bounding each spring alone (Irons and Treharne 1971). Elements without springs count s_i alone.
+/// Bound of the highest frequency: max over unbroken springs of s_i + s_j (a fixed end: 0), by splitting each
+/// mass over its springs and bounding each spring alone (Irons and Treharne 1971). Elements without springs
+/// count s_i alone.
 struct RateBound {
   double frequency2 = 0;  ///< omega^2 <= [1/s^2]
   double damping = 0;     ///< gamma <= [1/s]
   void add(const ElementRates& a, const ElementRates& b);
-  /// Largest stable step of symplectic Euler with lagged damping: h = 2 / omega (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
+  /// Largest stable step of symplectic Euler with lagged damping: h = 2 / omega (sqrt(1 + xi^2) - xi), xi =
+  /// gamma / (2 omega).
   double stableStep() const;
 };
 

@@ -25,7 +25,7 @@ struct CrushedElement {
   Eigen::Quaterniond orientation;
   double mass, inertia;
   double fractureEnergy;  ///< W_I, eq. (3) [J]
-  double released;        ///< its share of what its springs released when it crushed, each spring counted once [J]
+  double released;  ///< its share of what its springs released when it crushed, each spring counted once [J]
 };
 
 /// What one tick did, besides moving things.
@@ -40,8 +40,8 @@ struct TickReport {
 template <class Real>
 void beginSubstep(Body<Real>& body);
 
-/// Springs: force, torque, load W_I (eq. 3) and which springs are over their limit (decides, changes nothing). `kick` is the time
-/// over which the forces will act [s]. Returns the elastic energy [J].
+/// Springs: force, torque, load W_I (eq. 3) and which springs are over their limit (decides, changes
+/// nothing). `kick` is the time over which the forces will act [s]. Returns the elastic energy [J].
 template <class Real>
 double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books);
 
@@ -49,7 +49,8 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
 template <class Real>
 double accumulateContacts(const PairList& list, Body<Real>& a, Body<Real>& b);
 
-/// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to the overloaded ones.
+/// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to
+/// the overloaded ones.
 template <class Real>
 void markCrushed(Body<Real>& body);
 
@@ -57,12 +58,15 @@ void markCrushed(Body<Real>& body);
 template <class Real>
 void releaseContacts(const PairList& list, Body<Real>& a, Body<Real>& b, double kick, Books& books);
 
-/// Takes the overloaded springs out: their force of this substep, their place in the graph, their energy into books.fracture.
+/// Takes the overloaded springs out: their force of this substep, their place in the graph, their energy into
+/// books.fracture.
 template <class Real>
-void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<Real>& lists, Books& books, TickReport& report);
+void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<Real>& lists, Books& books,
+                 TickReport& report);
 
-/// Symplectic Euler (eq. 1, 2): velocities over `kick`, then positions over `step` [s]. Adds mass, momentum and kinetic energy of
-/// the body to the books' state. Returns the largest squared distance from `listed` [m^2], NaN if anything is not finite.
+/// Symplectic Euler (eq. 1, 2): velocities over `kick`, then positions over `step` [s]. Adds mass, momentum
+/// and kinetic energy of the body to the books' state. Returns the largest squared distance from `listed`
+/// [m^2], NaN if anything is not finite.
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
                std::span<const Vec3<Real>> listed, Books& books);

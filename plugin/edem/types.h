@@ -1,4 +1,5 @@
-// Short names for the small vectors of the element code. `Real` is the scalar of the elements' state: float or double.
+// Short names for the small vectors of the element code. `Real` is the scalar of the elements' state: float
+// or double.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,8 @@ using Mat3 = Eigen::Matrix<Real, 3, 3>;
 template <class Real>
 using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
 
-/// (R - 1) d for the unit quaternion q = (s, e), without subtracting nearly equal numbers: 2 s (e x d) + 2 e x (e x d).
+/// (R - 1) d for the unit quaternion q = (s, e), without subtracting nearly equal numbers: 2 s (e x d) + 2 e
+/// x (e x d).
 template <class Real>
 Vec3<Real> turned(const Quat<Real>& q, const Vec3<Real>& d) {
   const Vec3<Real> e = q.vec();

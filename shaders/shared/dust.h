@@ -7,7 +7,6 @@
 #define DUST_BIND_VELOCITY_2 1    // vec4[n^3]: curl, or the advected velocity
 #define DUST_BIND_VELOCITY_OUT 2  // vec4[n^3]: result of the correction
 #define DUST_BIND_DENSITY 3       // float[n^3] [kg/m^3]
-#define DUST_BIND_DENSITY_OUT 4   // float[n^3]
 #define DUST_BIND_AIR 5           // float[n^3]: 1 air, 0 solid
 #define DUST_BIND_FACES 6         // float[3 n^2 (n+1)]: normal velocity [m/s], later Courant number, of x, y, z faces
 #define DUST_BIND_LIST 7          // sources, obstacles, indirect arguments or sums
@@ -20,6 +19,7 @@
 #define DUST_BIND_COARSE_PRESSURE 4
 #define DUST_BIND_COARSE_RHS 7
 #define DUST_BIND_COARSE_INVERSE 6
+#define DUST_BIND_COARSE_WEIGHTS 4   // where the coarse weights are made; the coarse pressure is not in use
 
 #define DUST_BIND_OUTFLOW 5        // vec2[6 n^2]: (sum, Kahan compensation) of dust through the sides [kg/m^3]
 #define DUST_BIND_PARAMS 0         // uniform buffer DustParams
@@ -27,8 +27,6 @@
 // Plain uniforms, by location; each kernel uses what it needs.
 #define DUST_UNIFORM_A 0
 #define DUST_UNIFORM_B 1
-#define DUST_UNIFORM_C 2
-#define DUST_UNIFORM_D 3
 
 #ifdef __cplusplus
 #include <cstdint>

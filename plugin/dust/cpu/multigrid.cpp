@@ -125,8 +125,9 @@ void Multigrid::coarsenWeights(std::size_t level, ThreadPool& pool) {
   });
 }
 
-// Sum of coefficient times pressure over the six neighbours, for one row.
-void Multigrid::neighbourSum(const Level& level, int y, int z, float* sum) const {
+// Sum of coefficient times pressure over the six neighbours, for every step-th cell of one row.
+template <int step>
+void Multigrid::neighbourSum(const Level& level, int first, int y, int z, float* sum) const {
   const float* p = level.row(y, z);
   const float* down = level.row(y - 1, z);
   const float* up = level.row(y + 1, z);
@@ -134,7 +135,7 @@ void Multigrid::neighbourSum(const Level& level, int y, int z, float* sum) const
   const float* back = level.row(y, z + 1);
   if (level.rhs.empty()) {
     const float cx = level.coefficient[0], cy = level.coefficient[1], cz = level.coefficient[2];
-    for (int x = 0; x < level.n; ++x) {
+    for (int x = first; x < level.n; x += step) {
       sum[x] = cx * (p[x - 1] + p[x + 1]) + cy * (down[x] + up[x]) + cz * (front[x] + back[x]);
     }
     return;
@@ -142,32 +143,41 @@ void Multigrid::neighbourSum(const Level& level, int y, int z, float* sum) const
   const std::size_t i = level.cell(y, z);
   const float *w0 = &level.weights[0][i], *w1 = &level.weights[1][i], *w2 = &level.weights[2][i],
               *w3 = &level.weights[3][i], *w4 = &level.weights[4][i], *w5 = &level.weights[5][i];
-  for (int x = 0; x < level.n; ++x) {
+  for (int x = first; x < level.n; x += step) {
     sum[x] = w0[x] * p[x - 1] + w1[x] * p[x + 1] + w2[x] * down[x] + w3[x] * up[x] + w4[x] * front[x] +
              w5[x] * back[x];
   }
 }
 
 // Gauss-Seidel on the cells of one colour: their neighbours all have the other one, so order does not matter.
+// Whole rows vectorise, half of them for nothing; but where a part of the range ends, the neighbours of the
+// other half are just being written by another thread, so there only the cells of the colour are read for.
 void Multigrid::smooth(Level& level, const float* rhs, int colour, ThreadPool& pool) const {
   const int n = level.n;
   pool.run(n, n * n, [&](int begin, int end) {
     Row next;
     for (int z = begin; z < end; ++z) {
       for (int y = 0; y < n; ++y) {
-        neighbourSum(level, y, z, next.data());
+        const int first = (y + z + colour) & 1;
+        const bool atEnd = (z == begin && begin > 0) || (z == end - 1 && end < n);
         const float* b = rhs + level.cell(y, z);
         const float* inverse = &level.inverse[level.cell(y, z)];
-        for (int x = 0; x < n; ++x) next[x] = (next[x] - b[x]) * inverse[x];
         float* p = level.row(y, z);
-        for (int x = (y + z + colour) & 1; x < n; x += 2) p[x] = next[x];
+        if (atEnd) {
+          neighbourSum<2>(level, first, y, z, next.data());
+          for (int x = first; x < n; x += 2) p[x] = (next[x] - b[x]) * inverse[x];
+          continue;
+        }
+        neighbourSum<1>(level, 0, y, z, next.data());
+        for (int x = 0; x < n; ++x) next[x] = (next[x] - b[x]) * inverse[x];
+        for (int x = first; x < n; x += 2) p[x] = next[x];
       }
     }
   });
 }
 
 void Multigrid::residualRow(const Level& level, const float* rhs, int y, int z, float* residual) const {
-  neighbourSum(level, y, z, residual);
+  neighbourSum<1>(level, 0, y, z, residual);
   const float* b = rhs + level.cell(y, z);
   const float* inverse = &level.inverse[level.cell(y, z)];
   const float* p = level.row(y, z);

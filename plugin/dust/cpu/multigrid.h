@@ -51,7 +51,8 @@ class Multigrid {
   void setFinest(const std::vector<float>& air, ThreadPool& pool);
   void coarsenWeights(std::size_t level, ThreadPool& pool);
   float finestWeight(const std::vector<float>& air, int x, int y, int z, int direction) const;
-  void neighbourSum(const Level& level, int y, int z, float* sum) const;
+  template <int step>
+  void neighbourSum(const Level& level, int first, int y, int z, float* sum) const;
   void cycle(std::size_t level, const float* rhs, ThreadPool& pool);
   void smooth(Level& level, const float* rhs, int colour, ThreadPool& pool) const;
   void restrictResidual(const Level& fine, const float* rhs, Level& coarse, ThreadPool& pool) const;

@@ -18,6 +18,7 @@
 #include "rubble/events.h"
 #include "rubble/ledger.h"
 #include "rubble/material.h"
+#include "rubble/pose.h"
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
@@ -55,13 +56,6 @@ struct DestructibleBodyDef {
   int collisionMask = btBroadphaseProxy::AllFilter;
 };
 
-/// Where an element is now; the layout the renderer uploads.
-struct ElementPose {
-  Eigen::Vector3f position;  ///< [m]
-  float alive;               ///< 1, or 0 when crushed
-  Eigen::Vector4f rotation;  ///< unit quaternion x y z w
-};
-
 struct DestructionCounts {
   std::uint32_t elements = 0, crushed = 0, awake = 0;
   std::uint32_t springs = 0, springsBroken = 0;
@@ -95,6 +89,8 @@ class Destruction : public btActionInterface {
   std::span<const DebrisPiece> debris() const;
   DestructionCounts counts() const;
   DestructionTimes takeTimes();
+  /// Why the simulation stopped (a state that is not finite); empty while all is well. Nothing moves after it.
+  const std::string& failure() const;
   /// Stable substep of the stiffest body now [s], and the substeps of the last tick.
   double stableSubstep() const;
   int lastSubsteps() const;

@@ -1,0 +1,33 @@
+// What stands behind a DestructibleBody.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bullet/coupler_constraint.h"
+#include "bullet/element_shape.h"
+#include "debris/spawn.h"
+#include "rubble/destructible_body.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+struct DestructibleBody::Impl {
+  Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
+  std::uint32_t id = 0;
+  std::shared_ptr<const Asset> asset;
+  rubble::Material material;
+  Model model;
+  std::unique_ptr<ElementShape> shape;
+  std::unique_ptr<CouplerConstraint> coupler;
+  std::unique_ptr<debris::Spawner> spawner;
+  std::vector<double> bondConstants;      ///< C_B of each element [J m^0.5]
+  std::vector<std::uint8_t> wasRoot;      ///< elements that were the lowest of a fragment
+  std::vector<btCollisionObject*> near;   ///< noted by the narrowphase of this tick
+};
+
+/// Marks our bodies for upcast, beside the collision type btRigidBody sets.
+inline constexpr int kDestructibleMark = 0x52554242;  // "RUBB"
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,78 @@
+#include "rubble/destructible_body.h"
+
+#include "bullet/body_impl.h"
+#include "bullet/convert.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl)
+    : btRigidBody(info), m_impl(std::move(impl)) {
+  setUserIndex3(kDestructibleMark);
+  setLinearFactor(btVector3(0, 0, 0));
+  setAngularFactor(btVector3(0, 0, 0));
+  // Bullet's solver makes no contact rows against this body; its manifolds are ours.
+  setContactProcessingThreshold(-BT_LARGE_FLOAT);
+  setFlags(getFlags() | BT_DISABLE_WORLD_GRAVITY);
+}
+
+DestructibleBody::~DestructibleBody() {
+  if (m_impl->world) m_impl->world->forget(*this);
+}
+
+const DestructibleBody* DestructibleBody::upcast(const btCollisionObject* object) {
+  const bool ours = object->getCollisionShape() &&
+                    object->getCollisionShape()->getShapeType() == FAST_CONCAVE_MESH_PROXYTYPE &&
+                    object->getUserIndex3() == kDestructibleMark;
+  return ours ? static_cast<const DestructibleBody*>(object) : nullptr;
+}
+DestructibleBody* DestructibleBody::upcast(btCollisionObject* object) {
+  return const_cast<DestructibleBody*>(upcast(static_cast<const btCollisionObject*>(object)));
+}
+
+std::uint32_t DestructibleBody::id() const { return m_impl->id; }
+const std::shared_ptr<const Asset>& DestructibleBody::asset() const { return m_impl->asset; }
+const Material& DestructibleBody::material() const { return m_impl->material; }
+const Model& DestructibleBody::model() const { return m_impl->model; }
+
+void DestructibleBody::poses(std::span<ElementPose> out) const {
+  const edem::Solver& solver = *m_impl->world->solver;
+  const edem::BodyView view = solver.view(m_impl->id);
+  for (std::size_t i = 0; i < out.size() && i < view.alive.size(); ++i) {
+    out[i].position = solver.position(m_impl->id, i).cast<float>();
+    out[i].alive = view.alive[i] ? 1.0f : 0.0f;
+    out[i].rotation = solver.orientation(m_impl->id, i).coeffs().cast<float>();
+  }
+}
+
+std::span<const std::uint8_t> DestructibleBody::springsIntact() const {
+  return m_impl->world->solver->view(m_impl->id).intact;
+}
+std::span<const std::uint8_t> DestructibleBody::elementsAlive() const {
+  return m_impl->world->solver->view(m_impl->id).alive;
+}
+std::span<const std::uint32_t> DestructibleBody::fragments() const {
+  return m_impl->world->solver->view(m_impl->id).fragment;
+}
+
+double DestructibleBody::elementMass() const {
+  const edem::BodyView view = m_impl->world->solver->view(m_impl->id);
+  double mass = 0;
+  for (std::size_t i = 0; i < view.mass.size(); ++i) mass += view.alive[i] ? view.mass[i] : 0;
+  return mass;
+}
+
+btVector3 DestructibleBody::linearMomentum() const {
+  const edem::Solver& solver = *m_impl->world->solver;
+  const edem::BodyView view = solver.view(m_impl->id);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < view.mass.size(); ++i)
+    if (view.alive[i]) sum += view.mass[i] * solver.velocity(m_impl->id, i);
+  return bullet::toBullet(sum);
+}
+
+bool DestructibleBody::isAsleep() const { return m_impl->world->solver->view(m_impl->id).asleep; }
+
+RUBBLE_ABI_END
+}  // namespace rubble

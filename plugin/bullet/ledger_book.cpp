@@ -1,0 +1,57 @@
+#include "bullet/ledger_book.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+void LedgerBook::addExchange(const debris::Exchange& exchange) {
+  m_gravity += exchange.gravity;
+  m_air += exchange.air;
+  m_contact += exchange.contact;
+  m_removed += exchange.removed;
+  m_impulseSizes += exchange.gravity.linear.norm() + exchange.air.linear.norm() + exchange.contact.linear.norm();
+}
+
+void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
+  Ledger& l = m_ledger;
+  l.massElements = books.mass;
+  l.massDebris = debris.mass;
+  l.massDustEmitted = m_dust.mass;
+  l.massRemoved = m_removed.mass;
+  const double mass = l.massElements + l.massDebris + l.massDustEmitted + l.massRemoved;
+  l.massError = books.initialMass > 0 ? std::abs(mass - books.initialMass) / books.initialMass : 0;
+
+  // Momentum: what is there, and what left, is what was there and what was exchanged (DESIGN 3.12).
+  l.linearMomentum = books.linear + debris.linear;
+  l.angularMomentum = books.angular + debris.angularAbout(books.centre);
+  const Eigen::Vector3d linear =
+      books.initialLinear + books.bullet.linear + books.gravity.linear + books.anchors.linear + m_gravity.linear +
+      m_air.linear + m_contact.linear - books.sleptLinear - m_dust.linear - m_removed.linear;
+  const Eigen::Vector3d angular = books.initialAngular + books.bullet.angular + books.gravity.angular +
+                                  books.anchors.angular + m_gravity.angularAbout(books.centre) +
+                                  m_air.angularAbout(books.centre) + m_contact.angularAbout(books.centre) -
+                                  books.sleptAngular - m_dust.angularAbout(books.centre) -
+                                  m_removed.angularAbout(books.centre);
+  const double scale = std::max(1e-6, books.initialMomentumSize + books.bullet.size + books.gravity.size +
+                                          books.anchors.size + m_impulseSizes);
+  l.linearError = (l.linearMomentum - linear).norm() / scale;
+  l.angularError = (l.angularMomentum - angular).norm() / (scale * std::max(books.diagonal, 1e-6));
+
+  l.kinetic = books.kinetic;
+  l.elastic = books.elastic;
+  l.debris = debris.kinetic;
+  l.gravity = books.gravity.work.done() + m_gravity.energy;
+  l.exchanged = books.bullet.work.done();
+  l.dissipated = -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy;
+  l.fracture = books.fracture - m_given;
+  l.removed = books.slept + m_dust.kinetic + m_removed.kinetic;
+  m_largestEnergy = std::max({m_largestEnergy, 1e-6,
+                              l.kinetic + l.elastic + std::abs(l.exchanged) + std::abs(l.gravity)});
+  const double held = l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed;
+  l.energyError = std::abs(held - books.initialEnergy - l.gravity - l.exchanged) / m_largestEnergy;
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,34 @@
+// Joins the books of elements, debris and dust into the ledger.
+#pragma once
+
+#include "debris/debris_system.h"
+#include "debris/motion.h"
+#include "edem/books.h"
+#include "rubble/abi.h"
+#include "rubble/ledger.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+class LedgerBook {
+ public:
+  /// A crushed element became debris and dust; `lost` is what of it vanished (debris switched off).
+  void addDust(const debris::Motion& dust) { m_dust += dust; }
+  void addGiven(double energy) { m_given += energy; }
+  void addRemoved(const debris::Motion& removed) { m_removed += removed; }
+  void addExchange(const debris::Exchange& exchange);
+
+  void close(const edem::Books& books, const debris::Motion& debris);
+  const Ledger& ledger() const { return m_ledger; }
+
+ private:
+  Ledger m_ledger;
+  debris::Motion m_dust, m_removed;
+  debris::Impulse m_gravity, m_air, m_contact;
+  double m_given = 0;          // of the fracture energy, to debris [J]
+  double m_impulseSizes = 0;   // sum of |impulse| on debris [N s]
+  double m_largestEnergy = 0;  // [J]
+};
+
+RUBBLE_ABI_END
+}  // namespace rubble

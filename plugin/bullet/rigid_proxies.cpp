@@ -1,0 +1,165 @@
+#include "bullet/rigid_proxies.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btShapeHull.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <LinearMath/btConvexHullComputer.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "bullet/convert.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toEigen;
+
+std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
+  std::uint64_t state = 14695981039346656037ull;
+  for (const Eigen::Vector3d& p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::uint64_t bits = 0;
+      const double value = p[axis];
+      std::memcpy(&bits, &value, sizeof bits);
+      state = (state ^ bits) * 1099511628211ull;
+    }
+  }
+  return state;
+}
+
+std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<btVector3> input;
+  for (const Eigen::Vector3d& p : points) input.push_back(bullet::toBullet(p));
+  btConvexHullComputer computer;
+  computer.compute(&input[0][0], int(sizeof(btVector3)), int(input.size()), 0, 0);
+  auto hull = std::make_shared<edem::Hull>();
+  for (int f = 0; f < computer.faces.size(); ++f) {
+    edem::Hull::Face face;
+    const btConvexHullComputer::Edge* first = &computer.edges[computer.faces[f]];
+    const btConvexHullComputer::Edge* edge = first;
+    do {
+      face.vertices.push_back(toEigen(computer.vertices[edge->getSourceVertex()]));
+      edge = edge->getNextEdgeOfFace();
+    } while (edge != first);
+    // Newell's normal: right for faces with nearly collinear corners.
+    Eigen::Vector3d area = Eigen::Vector3d::Zero(), middle = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < face.vertices.size(); ++i) {
+      area += face.vertices[i].cross(face.vertices[(i + 1) % face.vertices.size()]);
+      middle += face.vertices[i] / double(face.vertices.size());
+    }
+    if (!(area.norm() > 0)) continue;
+    face.normal = area.normalized();
+    face.offset = face.normal.dot(middle);
+    hull->faces.push_back(std::move(face));
+  }
+  // Bullet does not promise the side its faces turn; the inside is where the points' mean is.
+  Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) inside += p / double(points.size());
+  for (edem::Hull::Face& face : hull->faces) {
+    if (face.normal.dot(inside) <= face.offset) continue;
+    face.normal = -face.normal;
+    face.offset = -face.offset;
+    std::reverse(face.vertices.begin(), face.vertices.end());
+  }
+  return hull;
+}
+
+}  // namespace
+
+std::shared_ptr<const edem::Hull> RigidProxies::hullOf(const btCollisionShape& shape,
+                                                       const std::vector<Eigen::Vector3d>& points) {
+  CachedHull& cached = m_hulls[&shape];
+  const std::uint64_t hash = hashOf(points);
+  if (!cached.hull || cached.points != hash) cached = {hash, makeHull(points)};
+  return cached.hull;
+}
+
+void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
+                            std::vector<edem::Collider>& parts) {
+  edem::Collider c;
+  c.place = place;
+  std::vector<Eigen::Vector3d> points;
+  switch (shape.getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE:
+      c.kind = edem::Collider::Kind::Sphere;
+      c.size.x() = static_cast<double>(static_cast<const btSphereShape&>(shape).getRadius());
+      break;
+    case BOX_SHAPE_PROXYTYPE:
+      c.kind = edem::Collider::Kind::Box;
+      c.size = toEigen(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+      break;
+    case STATIC_PLANE_PROXYTYPE: {
+      const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
+      c.kind = edem::Collider::Kind::Plane;
+      c.size = toEigen(plane.getPlaneNormal());
+      c.offset = static_cast<double>(plane.getPlaneConstant());
+      break;
+    }
+    case COMPOUND_SHAPE_PROXYTYPE: {
+      const auto& compound = static_cast<const btCompoundShape&>(shape);
+      for (int i = 0; i < compound.getNumChildShapes(); ++i)
+        addShape(*compound.getChildShape(i), place * toEigen(compound.getChildTransform(i)), parts);
+      return;
+    }
+    case CONVEX_HULL_SHAPE_PROXYTYPE: {
+      const auto& hull = static_cast<const btConvexHullShape&>(shape);
+      for (int i = 0; i < hull.getNumPoints(); ++i) points.push_back(toEigen(hull.getScaledPoint(i)));
+      c.rounding = static_cast<double>(hull.getMargin());
+      break;
+    }
+    default:
+      if (!shape.isConvex()) break;
+      // Any other convex shape by the 42 directions of Bullet's own hull of it, margin included.
+      btShapeHull sampled(static_cast<const btConvexShape*>(&shape));
+      if (sampled.buildHull(0))
+        for (int i = 0; i < sampled.numVertices(); ++i) points.push_back(toEigen(sampled.getVertexPointer()[i]));
+      break;
+  }
+  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE || shape.getShapeType() == BOX_SHAPE_PROXYTYPE ||
+      shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    parts.push_back(c);
+    return;
+  }
+  if (points.size() >= 4) {
+    c.kind = edem::Collider::Kind::Hull;
+    c.hull = hullOf(shape, points);
+    if (c.hull->faces.size() >= 4) {
+      parts.push_back(c);
+      return;
+    }
+  }
+  const int type = shape.getShapeType();
+  if (std::find(m_refused.begin(), m_refused.end(), type) != m_refused.end()) return;
+  m_refused.push_back(type);
+  if (m_log) m_log(LogLevel::Warning, std::string("shape ") + shape.getName() + " does not touch destructible bodies: only convex shapes, planes and compounds of them do");
+}
+
+edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
+  edem::RigidProxy proxy;
+  proxy.position = toEigen(object.getWorldTransform().getOrigin());
+  proxy.orientation = toEigen(object.getWorldTransform().getRotation()).normalized();
+  proxy.friction = static_cast<double>(object.getFriction());
+  const btRigidBody* rigid = btRigidBody::upcast(&object);
+  if (rigid && !object.isStaticObject()) {
+    proxy.velocity = toEigen(rigid->getLinearVelocity());
+    proxy.spin = toEigen(rigid->getAngularVelocity());
+    proxy.inverseMass = object.isKinematicObject() ? 0.0 : static_cast<double>(rigid->getInvMass());
+  }
+  if (proxy.isDynamic()) {
+    // All that Bullet's solver will integrate in this tick: gravity and the application's forces.
+    proxy.acceleration = proxy.inverseMass * toEigen(rigid->getTotalForce());
+    proxy.inverseInertia = toEigen(rigid->getInvInertiaDiagLocal());
+    proxy.angularAcceleration = toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
+  }
+  addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), proxy.parts);
+  return proxy;
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,363 @@
+#include "bullet/world_tick.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet/body_impl.h"
+#include "bullet/convert.h"
+#include "debris/bond.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toBullet;
+using bullet::toEigen;
+
+/// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
+constexpr double kQuietSpeed = 0.01;
+/// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm; above, fast bodies
+/// end where the substeps brought them (plugin/README.md).
+constexpr double kFixBegin = 0.05, kFixFull = 0.10;
+/// Resting debris within this many radii of a break wake up.
+constexpr double kWakeRadii = 3;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& milliseconds) : m_sum(milliseconds), m_begin(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() {
+    m_sum += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_begin).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& m_sum;
+  std::chrono::steady_clock::time_point m_begin;
+};
+
+}  // namespace
+
+Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition)
+    : world(bulletWorld),
+      def(definition),
+      solver(edem::Solver::make(definition.precision, {definition.substepSafety, definition.maxSubstepsPerFrame,
+                                                       definition.breaking, definition.crushing})),
+      algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
+      proxyMaker(definition.log) {
+  if (!def.debris) return;
+  debris::DebrisSystemDef system;
+  system.maxDebris = def.maxDebris;
+  debrisSystem = std::make_unique<debris::DebrisSystem>(system);
+  surroundings = std::make_unique<DebrisSurroundings>(world, *solver, proxyMaker);
+}
+
+Destruction::Impl::~Impl() {
+  while (!bodies.empty()) {
+    DestructibleBody* body = bodies.back();
+    world.removeRigidBody(body);
+    delete body;  // forgets itself
+  }
+}
+
+DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef) {
+  if (!bodyDef.asset) throw Error("destructible body: asset: none given");
+  auto impl = std::make_unique<DestructibleBody::Impl>();
+  impl->spawner = std::make_unique<debris::Spawner>(bodyDef.material, bodyDef.model, def.seed);
+  edem::BodyDef elements;
+  elements.asset = bodyDef.asset;
+  elements.material = bodyDef.material;
+  elements.model = bodyDef.model;
+  elements.transform = toEigen(bodyDef.transform);
+  elements.velocity = toEigen(bodyDef.velocity);
+  elements.spin = toEigen(bodyDef.spin);
+  elements.massDamping = bodyDef.massDamping;
+  elements.anchored = bodyDef.anchored;
+  double mass = 0;
+  const Material& m = bodyDef.material;
+  for (const double volume : bodyDef.asset->volumes) {
+    const double constant = debris::bondConstant(m.bondWorkIndex, m.crushEfficiency, m.sizeModulus, m.density * volume);
+    impl->bondConstants.push_back(constant);
+    elements.crushEnergy.push_back(debris::crushingEnergy(constant, bodyDef.asset->radius));
+    mass += m.density * volume;
+  }
+  impl->id = solver->addBody(elements, toEigen(world.getGravity()));
+  impl->world = this;
+  impl->asset = bodyDef.asset;
+  impl->material = bodyDef.material;
+  impl->model = bodyDef.model;
+  impl->shape = std::make_unique<ElementShape>(*solver, impl->id);
+  impl->wasRoot.assign(bodyDef.asset->elementCount(), 0);
+  const auto fragment = solver->view(impl->id).fragment;
+  for (std::size_t i = 0; i < fragment.size(); ++i) impl->wasRoot[i] = fragment[i] == i;
+
+  btVector3 inertia;
+  impl->shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, impl->shape.get(), inertia);
+  auto* body = new DestructibleBody(info, std::move(impl));
+  body->impl().coupler = std::make_unique<CouplerConstraint>(*body, *this);
+  body->setActivationState(DISABLE_DEACTIVATION);
+  world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
+  world.addConstraint(body->impl().coupler.get());
+  bodies.push_back(body);
+  ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  return body;
+}
+
+void Destruction::Impl::forget(DestructibleBody& body) {
+  const auto found = std::find(bodies.begin(), bodies.end(), &body);
+  if (found == bodies.end()) return;
+  bodies.erase(found);
+  world.removeConstraint(body.impl().coupler.get());
+  const edem::Books before = solver->books();
+  solver->removeBody(body.impl().id);
+  const edem::Books& after = solver->books();
+  debris::Motion gone;
+  gone.mass = after.leftMass - before.leftMass;
+  gone.linear = after.leftLinear - before.leftLinear;
+  gone.angular = after.leftAngular - before.leftAngular + after.centre.cross(gone.linear);
+  gone.kinetic = after.leftKinetic - before.leftKinetic + after.leftElastic - before.leftElastic;
+  ledgerBook.addRemoved(gone);
+  body.impl().world = nullptr;
+}
+
+DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
+  for (DestructibleBody* body : bodies)
+    if (body->id() == id) return body;
+  return nullptr;
+}
+
+template <class T>
+void Destruction::Impl::record(std::vector<T>& list, const T& event) {
+  if (list.size() < def.maxEvents) {
+    list.push_back(event);
+  } else {
+    ++events[filling].dropped;
+  }
+}
+
+void Destruction::Impl::gatherProxies() {
+  touched.clear();
+  proxies.clear();
+  for (DestructibleBody* body : bodies) {
+    for (btCollisionObject* object : body->impl().near) {
+      const auto known = [&](const TouchedBody& t) { return t.object == object; };
+      if (std::any_of(touched.begin(), touched.end(), known)) continue;
+      edem::RigidProxy proxy = proxyMaker.make(*object);
+      if (proxy.parts.empty()) continue;
+      TouchedBody t;
+      t.object = object;
+      if (proxy.isDynamic()) t.rigid = btRigidBody::upcast(object);
+      touched.push_back(t);
+      proxies.push_back(std::move(proxy));
+    }
+    body->impl().near.clear();
+  }
+}
+
+void Destruction::Impl::advance(double dt) {
+  if (advanced || !failure.empty()) return;
+  advanced = true;
+  const Stopwatch watch(times.edem);
+  gatherProxies();
+  std::vector<edem::RigidProxy> start = proxies;
+  solver->tick(dt, toEigen(world.getGravity()), proxies);
+  failure = solver->failure();
+  substeps = solver->report().substeps;
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    TouchedBody& t = touched[p];
+    if (!t.rigid) continue;
+    const edem::RigidProxy& s = start[p];
+    const Eigen::Vector3d change = proxies[p].inverseMass * proxies[p].impulse;
+    t.deltaVelocity = toBullet(change);
+    t.deltaSpin = t.rigid->getInvInertiaTensorWorld() * toBullet(proxies[p].angularImpulse);
+    t.freeEnd = toBullet(Eigen::Vector3d(s.position + dt * (s.velocity + dt * s.acceleration + change)));
+    if (proxies[p].contactWeight > 0) t.rigid->activate();
+  }
+  for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
+}
+
+void Destruction::Impl::finish(double dt) {
+  if (!advanced && solver->anyAwake()) advance(dt);
+  for (DestructibleBody* body : bodies) {
+    body->impl().shape->setHidden(false);
+    body->impl().near.clear();
+  }
+  if (advanced) {
+    lateImpulses();
+    fixPositions(dt);
+    const Stopwatch watch(times.fracture);
+    bookEvents();
+    breakElements();
+  }
+  if (debrisSystem && failure.empty()) {
+    const Stopwatch watch(times.debris);
+    stepDebris(dt);
+  }
+  ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  updateSleep(dt);
+  advanced = false;
+}
+
+/// Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
+void Destruction::Impl::lateImpulses() {
+  for (TouchedBody& t : touched) {
+    if (!t.rigid || t.given) continue;
+    t.rigid->setLinearVelocity(t.rigid->getLinearVelocity() + t.deltaVelocity);
+    t.rigid->setAngularVelocity(t.rigid->getAngularVelocity() + t.deltaSpin);
+    t.rigid->translate(t.deltaVelocity * static_cast<btScalar>(world.getSolverInfo().m_timeStep));
+  }
+}
+
+/// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps had it.
+void Destruction::Impl::fixPositions(double) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    TouchedBody& t = touched[p];
+    if (!t.rigid || !(proxies[p].contactWeight > 0)) continue;
+    const btVector3 shift = toBullet(proxies[p].position) - t.freeEnd;
+    const double size = static_cast<double>(shift.length()) / radius;
+    const double blend = std::clamp((size - kFixBegin) / (kFixFull - kFixBegin), 0.0, 1.0);
+    if (blend <= 0) continue;
+    btTransform at = t.rigid->getWorldTransform();
+    at.setOrigin(at.getOrigin() + static_cast<btScalar>(blend) * shift);
+    t.rigid->setWorldTransform(at);
+    t.rigid->setInterpolationWorldTransform(at);
+  }
+}
+
+void Destruction::Impl::bookEvents() {
+  Events& out = events[filling];
+  const edem::TickReport& report = solver->report();
+  wakeBoxes.clear();
+  for (const edem::BrokenSpring& s : report.broken) {
+    record(out.springsBroken, {s.body, s.spring, s.mode, static_cast<float>(s.energy), s.position.cast<float>()});
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kWakeRadii * solver->radius(s.body));
+    wakeBoxes.emplace_back(s.position - reach, s.position + reach);
+  }
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    const edem::RigidProxy& proxy = proxies[p];
+    if (!(proxy.contactWeight > 0)) continue;
+    for (const std::uint32_t id : proxy.touched)
+      record(out.contacts, {id, touched[p].object, static_cast<float>(proxy.impulse.norm()),
+                            (proxy.contactPoint / proxy.contactWeight).cast<float>()});
+  }
+  for (DestructibleBody* body : bodies) {
+    const auto broke = [&](const edem::BrokenSpring& s) { return s.body == body->id(); };
+    if (std::none_of(report.broken.begin(), report.broken.end(), broke)) continue;
+    const edem::BodyView view = solver->view(body->id());
+    std::vector<FragmentSplit> split(view.fragment.size());
+    for (std::size_t i = 0; i < view.fragment.size(); ++i) {
+      if (view.fragment[i] == kNoElement) continue;
+      FragmentSplit& f = split[view.fragment[i]];
+      ++f.elements;
+      f.mass += static_cast<float>(view.mass[i]);
+    }
+    for (std::uint32_t i = 0; i < split.size(); ++i) {
+      const bool root = view.fragment[i] == i;
+      if (root && !body->impl().wasRoot[i]) record(out.fragmentsSplit, {body->id(), i, split[i].elements, split[i].mass});
+      body->impl().wasRoot[i] = root;
+    }
+  }
+}
+
+/// Crushed elements become debris and dust (paper 3.2, 3.3).
+void Destruction::Impl::breakElements() {
+  Events& out = events[filling];
+  for (const edem::CrushedElement& c : solver->report().crushed) {
+    DestructibleBody* body = bodyOf(c.body);
+    if (!body) continue;
+    DestructibleBody::Impl& own = body->impl();
+    ++crushed;
+    debris::CrushedElement e;
+    e.body = c.body;
+    e.element = c.element;
+    e.restCentre = own.asset->positions[c.element];
+    e.centre = c.position;
+    e.orientation = c.orientation;
+    e.velocity = c.velocity;
+    e.spin = c.spin;
+    e.mass = c.mass;
+    e.inertia = c.inertia;
+    e.volume = own.asset->volumes[c.element];
+    e.radius = own.asset->radius;
+    e.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
+    e.releasedEnergy = c.released;
+    own.spawner->spawn(e, own.asset->cellFaces(c.element), batch);
+    if (debrisSystem) {
+      debrisSystem->add(batch.pieces);
+      ledgerBook.addGiven(batch.energyGiven);
+    } else {
+      const debris::Motion whole = debris::motionOf(c.mass, c.inertia, c.position, c.velocity, c.spin);
+      debris::Motion rest = whole;
+      rest -= batch.dustMotion;
+      ledgerBook.addRemoved(rest);
+    }
+    ledgerBook.addDust(batch.dustMotion);
+    const std::uint32_t pieces = debrisSystem ? std::uint32_t(batch.pieces.size()) : 0;
+    debrisSpawned += pieces;
+    record(out.elementsCrushed,
+           {c.body, c.element, pieces, static_cast<float>(c.mass), static_cast<float>(batch.dustMotion.mass),
+            static_cast<float>(c.fractureEnergy), static_cast<float>(e.maxRadius), c.position.cast<float>(),
+            c.velocity.cast<float>()});
+    for (std::uint32_t p = 0; p < pieces; ++p)
+      record(out.debrisSpawned, {c.body, c.element, static_cast<float>(batch.pieces[p].radius),
+                                 static_cast<float>(batch.pieces[p].mass)});
+    if (batch.dustMotion.mass > 0)
+      record(out.dustSources, {c.position.cast<float>(), c.velocity.cast<float>(),
+                               static_cast<float>(batch.dustMotion.mass), static_cast<float>(own.material.dustRadius)});
+  }
+}
+
+void Destruction::Impl::stepDebris(double dt) {
+  if (debrisSystem->restingCount() > 0) {
+    for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
+      const btCollisionObject* object = world.getCollisionObjectArray()[i];
+      const btRigidBody* rigid = btRigidBody::upcast(object);
+      if (!rigid || object->isStaticOrKinematicObject() || DestructibleBody::upcast(object)) continue;
+      if (!rigid->isActive() || static_cast<double>(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
+      btVector3 low, high;
+      rigid->getAabb(low, high);
+      wakeBoxes.emplace_back(toEigen(low), toEigen(high));
+    }
+    if (!wakeBoxes.empty()) debrisSystem->wake(wakeBoxes);
+  }
+  wakeBoxes.clear();
+  if (debrisSystem->movingCount() > 0) {
+    debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
+    const auto impulses = debrisSystem->surfaceImpulses();
+    for (std::uint32_t s = 0; s < impulses.size(); ++s) {
+      btRigidBody* rigid = impulses[s].hits > 0 ? surroundings->movable(s) : nullptr;
+      if (!rigid) continue;
+      rigid->activate();
+      rigid->applyCentralImpulse(toBullet(impulses[s].linear));
+      rigid->applyTorqueImpulse(toBullet(impulses[s].angularAbout(toEigen(rigid->getCenterOfMassPosition()))));
+    }
+  }
+  const debris::Exchange exchange = debrisSystem->takeExchange();
+  debrisRemoved += std::uint32_t(exchange.removedCount);
+  ledgerBook.addExchange(exchange);
+}
+
+/// Bullet's own rules decide; we only tell it whether anything moves, and follow.
+void Destruction::Impl::updateSleep(double dt) {
+  for (DestructibleBody* body : bodies) {
+    const std::uint32_t id = body->id();
+    const bool asleep = solver->view(id).asleep;
+    if (asleep && body->isActive()) solver->setAsleep(id, false);
+    if (!asleep && !body->isActive()) solver->setAsleep(id, true);
+    const double speed = solver->maxSpeed(id);
+    const bool quiet = def.sleep && speed < kQuietSpeed;
+    if (!quiet) {
+      body->forceActivationState(DISABLE_DEACTIVATION);
+      body->setDeactivationTime(0);
+    } else if (body->getActivationState() == DISABLE_DEACTIVATION) {
+      body->forceActivationState(ACTIVE_TAG);
+    }
+    if (!solver->view(id).asleep) body->impl().shape->refit(speed * dt);
+  }
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,77 @@
+// One tick of all destructible bodies of a world: who is near, substeps, impulses back, and after Bullet moved things the debris, the ledger
+// and the events.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "bullet/debris_surroundings.h"
+#include "bullet/element_algorithm.h"
+#include "bullet/ledger_book.h"
+#include "bullet/rigid_proxies.h"
+#include "debris/debris_system.h"
+#include "edem/solver.h"
+#include "rubble/destruction.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
+/// A Bullet object that took part in this tick's substeps.
+struct TouchedBody {
+  btCollisionObject* object = nullptr;
+  btRigidBody* rigid = nullptr;  ///< null unless dynamic
+  btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
+  bool given = false;  ///< Bullet's solver has taken it
+  btVector3 freeEnd{0, 0, 0};  ///< where the body would be at the end of the tick under its impulse as a whole
+};
+
+struct Destruction::Impl {
+  Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition);
+  ~Impl();
+
+  DestructibleBody* addBody(const DestructibleBodyDef& def);
+  /// The body is being deleted, by us or by the application.
+  void forget(DestructibleBody& body);
+
+  /// Substeps, once a tick: from the first coupler, or from the action when Bullet called none.
+  void advance(double dt);
+  /// After Bullet moved its bodies.
+  void finish(double dt);
+
+  btDiscreteDynamicsWorld& world;
+  DestructionDef def;
+  std::unique_ptr<edem::Solver> solver;
+  std::unique_ptr<debris::DebrisSystem> debrisSystem;  ///< null when debris are switched off
+  ElementAlgorithms algorithms;
+  RigidProxies proxyMaker;
+  std::unique_ptr<DebrisSurroundings> surroundings;
+  std::vector<DestructibleBody*> bodies;
+  std::vector<TouchedBody> touched;
+  std::vector<edem::RigidProxy> proxies;  ///< beside `touched`
+  bool advanced = false;                  ///< in this tick
+  LedgerBook ledgerBook;
+  Events events[2];
+  int filling = 0;
+  DestructionTimes times;
+  std::string failure;
+  int substeps = 0;
+  std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0;
+  debris::DebrisBatch batch;
+  std::vector<Eigen::AlignedBox3d> wakeBoxes;
+
+ private:
+  void gatherProxies();
+  void lateImpulses();
+  void fixPositions(double dt);
+  void bookEvents();
+  void breakElements();
+  void stepDebris(double dt);
+  void updateSleep(double dt);
+  DestructibleBody* bodyOf(std::uint32_t id) const;
+  template <class T>
+  void record(std::vector<T>& list, const T& event);
+};
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,225 @@
+#include "dust/gl/gl_dust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "dust/definition.h"
+#include "shared/dust.h"
+
+namespace rubble::dust {
+
+namespace {
+
+using shared::vec4;
+
+// After the definition is checked and before the first GL object. Returns the directory, so that it stands in
+// front of the other members.
+const std::string& checkedContext(const Lattice& lattice, const std::string& shaderDirectory) {
+  if (epoxy_gl_version() < 43 || !epoxy_is_desktop_gl()) {
+    throw Error("dust: the GL back end needs a current OpenGL 4.3 context, this one is " +
+                std::to_string(epoxy_gl_version() / 10) + "." + std::to_string(epoxy_gl_version() % 10));
+  }
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  const auto largest = static_cast<GLint64>(lattice.cells() * sizeof(vec4));
+  if (largest > most) {
+    throw Error("dust: resolution: a storage buffer of " + std::to_string(largest) +
+                " bytes is needed, the driver has at most " + std::to_string(most));
+  }
+  return shaderDirectory;
+}
+
+}  // namespace
+
+GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory)
+    : Stages(def),
+      m_source(checkedContext(m_lattice, shaderDirectory), def.resolution),
+      m_addSources(m_source.build("add_sources.comp")),
+      m_curl(m_source.build("curl.comp")),
+      m_forces(m_source.build("forces.comp")),
+      m_obstacles(m_source.build("obstacles.comp")),
+      m_faceVelocities(m_source.build("faces.comp")),
+      m_divergenceOf(m_source.build("divergence.comp")),
+      m_projectFaces(m_source.build("project_faces.comp")),
+      m_projectCells(m_source.build("project_cells.comp")),
+      m_advect(m_source.build("advect.comp")),
+      m_correct(m_source.build("advect_correct.comp")),
+      m_courant(m_source.build("courant.comp")),
+      m_schedule(m_source.build("schedule.comp")),
+      m_sweep(m_source.build("sweep.comp")),
+      m_velocity(m_lattice.cells() * sizeof(vec4)),
+      m_work(m_lattice.cells() * sizeof(vec4)),
+      m_corrected(m_lattice.cells() * sizeof(vec4)),
+      m_density(m_lattice.cells() * sizeof(float)),
+      m_air(m_lattice.cells() * sizeof(float)),
+      m_faces(3 * m_lattice.facesOfAxis() * sizeof(float)),
+      m_divergence(m_lattice.cells() * sizeof(float)),
+      m_outflow(static_cast<std::size_t>(def.resolution * def.resolution) * 12 * sizeof(float)),
+      m_substeps(shared::kDustMaxSubsteps * sizeof(shared::DustDispatch) + 2 * sizeof(shared::uint)),
+      m_params(sizeof(shared::DustParams)),
+      m_pressure(m_source),
+      m_totals(m_source, m_lattice.volume()) {
+  const std::vector<float> air(m_lattice.cells(), 1.0f);
+  m_air.write(std::as_bytes(std::span(air)));
+  setStep(0);
+  m_pressure.setAir(m_air, false);
+  checkGl("creation");
+}
+
+// The constants of a stage. Bound each time: another part of the program may use the binding point.
+void GlDust::setStep(float dt) {
+  const Eigen::Vector3f &cell = m_lattice.cell, &origin = m_lattice.origin;
+  const Eigen::Vector3f inverse = cell.cwiseInverse();
+  const shared::DustParams params = {{cell.x(), cell.y(), cell.z(), cell.minCoeff()},
+                                     {origin.x(), origin.y(), origin.z(), dt},
+                                     {inverse.x(), inverse.y(), inverse.z(), std::exp(-m_def.drag * dt)},
+                                     {m_def.gravity / m_def.airDensity, shared::kDustMaxLoad * m_def.gravity,
+                                      m_def.vorticity, settlingSpeed(m_def)}};
+  m_params.write(std::as_bytes(std::span(&params, 1)));
+  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+}
+
+template <class T>
+void GlDust::sendList(std::span<const T> items) {
+  const auto bytes = std::as_bytes(items);
+  // Half as much again, so that a growing list does not ask for storage every step.
+  if (bytes.size() > m_list.bytes()) m_list = GlBuffer(bytes.size() + bytes.size() / 2);
+  m_list.write(bytes);
+  m_list.bind(DUST_BIND_LIST);
+}
+
+void GlDust::addSources(std::span<const shared::DustSourceCell> sources) {
+  if (sources.empty()) return;
+  sendList(sources);
+  m_velocity.bind(DUST_BIND_VELOCITY);
+  m_density.bind(DUST_BIND_DENSITY);
+  const int count = static_cast<int>(sources.size());
+  m_addSources.set(DUST_UNIFORM_A, count);
+  m_addSources.run((count + kListGroup - 1) / kListGroup);
+}
+
+void GlDust::addForces(float dt) {
+  setStep(dt);
+  m_velocity.bind(DUST_BIND_VELOCITY);
+  m_work.bind(DUST_BIND_VELOCITY_2);
+  m_density.bind(DUST_BIND_DENSITY);
+  if (m_def.vorticity > 0) m_source.runOnCells(m_curl);
+  m_source.runOnCells(m_forces);
+}
+
+void GlDust::placeObstacles(std::span<const SolidCells> solids) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  if (!solids.empty() || m_anySolid) {
+    m_solidList.clear();
+    for (const SolidCells& s : solids) m_solidList.push_back(s.solid);
+    if (m_solidList.empty()) m_solidList.emplace_back();  // a binding must hold something; the count is 0
+    sendList(std::span<const shared::DustSolid>(m_solidList));
+    m_velocity.bind(DUST_BIND_VELOCITY);
+    m_air.bind(DUST_BIND_AIR);
+    m_obstacles.set(DUST_UNIFORM_A, static_cast<int>(solids.size()));
+    m_source.runOnCells(m_obstacles);
+  }
+  m_anySolid = !solids.empty();
+  m_pressure.setAir(m_air, m_anySolid);
+}
+
+void GlDust::computeDivergence() {
+  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  m_velocity.bind(DUST_BIND_VELOCITY);
+  m_air.bind(DUST_BIND_AIR);
+  m_faces.bind(DUST_BIND_FACES);
+  m_source.runOnCells(m_faceVelocities);
+  m_divergence.bind(DUST_BIND_RHS);
+  m_source.runOnCells(m_divergenceOf);
+}
+
+void GlDust::solvePressure() {
+  m_pressure.solve(m_divergence, m_def.pressureCycles);
+}
+
+void GlDust::project() {
+  m_pressure.pressure().bind(DUST_BIND_PRESSURE);
+  m_velocity.bind(DUST_BIND_VELOCITY_OUT);
+  m_air.bind(DUST_BIND_AIR);
+  m_faces.bind(DUST_BIND_FACES);
+  m_source.runOnCells(m_projectFaces);
+  m_source.runOnCells(m_projectCells);
+}
+
+void GlDust::advectVelocity(float dt) {
+  setStep(dt);
+  m_velocity.bind(DUST_BIND_VELOCITY);
+  m_work.bind(DUST_BIND_VELOCITY_2);
+  m_corrected.bind(DUST_BIND_VELOCITY_OUT);
+  m_source.runOnCells(m_advect);
+  m_source.runOnCells(m_correct);
+  std::swap(m_velocity, m_corrected);
+}
+
+void GlDust::transportDust(float dt) {
+  setStep(dt);
+  m_density.bind(DUST_BIND_DENSITY);
+  m_air.bind(DUST_BIND_AIR);
+  m_faces.bind(DUST_BIND_FACES);
+  m_substeps.bind(DUST_BIND_LIST);
+  m_source.runOnCells(m_courant);
+  m_schedule.run(1);
+  glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  m_outflow.bind(DUST_BIND_OUTFLOW);  // the binding point of the air, which is no longer needed
+  for (int s = 0; s < shared::kDustMaxSubsteps; ++s) {
+    // Every other substep takes the axes in reverse, which cancels the bias of their order.
+    for (int k = 0; k < 3; ++k) {
+      m_sweep.set(DUST_UNIFORM_A, s % 2 == 0 ? k : 2 - k);
+      m_sweep.runIndirect(m_substeps.id(), static_cast<std::size_t>(s) * sizeof(shared::DustDispatch));
+    }
+  }
+}
+
+void GlDust::sumTotals() {
+  m_totals.update(m_density, m_outflow, m_emitted, m_outside);
+}
+
+const GlBuffer& GlDust::bufferOf(Field field) const {
+  switch (field) {
+    case Field::Velocity:
+      return m_velocity;
+    case Field::Density:
+      return m_density;
+    case Field::Air:
+      return m_air;
+    case Field::Faces:
+      return m_faces;
+    case Field::Divergence:
+      return m_divergence;
+    case Field::Pressure:
+      break;
+  }
+  return m_pressure.pressure();
+}
+
+void GlDust::read(Field field, std::vector<float>& values) const {
+  values.resize(valuesOf(field));
+  bufferOf(field).read(std::as_writable_bytes(std::span(values)));
+}
+
+void GlDust::write(Field field, std::span<const float> values) {
+  if (values.size() != valuesOf(field)) throw Error("dust: write: wrong number of values");
+  if (field == Field::Pressure) throw Error("dust: write: the pressure is a result");
+  bufferOf(field).write(std::as_bytes(values));
+  if (field != Field::Air) return;
+  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  m_anySolid = true;
+  m_pressure.setAir(m_air, true);
+}
+
+}  // namespace rubble::dust
+
+namespace rubble {
+
+std::unique_ptr<DustGrid> createDustGridGl(const DustGridDef& def, const std::string& shaderDirectory) {
+  return std::make_unique<dust::GlDust>(def, shaderDirectory);
+}
+
+}  // namespace rubble

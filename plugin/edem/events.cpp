@@ -1,0 +1,15 @@
+#include "rubble/events.h"
+
+namespace rubble {
+
+void Events::clear() {
+  springsBroken.clear();
+  elementsCrushed.clear();
+  debrisSpawned.clear();
+  fragmentsSplit.clear();
+  contacts.clear();
+  dustSources.clear();
+  dropped = 0;
+}
+
+}  // namespace rubble

@@ -1,0 +1,71 @@
+#include "rubble/material.h"
+
+#include <array>
+
+#include "rubble/error.h"
+
+namespace rubble {
+namespace {
+
+/// Measured: densities, moduli, strengths and Bond indices are handbook values of the named material
+/// (concrete Wi 13.5, brick 11.8, granite 15.7, glass 3.1 kWh/t). Softened for games: E, with strengths
+/// raised so that f_t / E grows as 1 / sqrt(E). Chosen for the eye: crushEfficiency and debrisSpeed.
+std::array<Material, 4> presets() {
+  Material softConcrete;
+  Material concrete;
+  concrete.name = "concrete";
+  concrete.youngsModulus = 30e9;
+  concrete.tensileStrength = 3e6;
+  concrete.compressiveStrength = 30e6;
+  concrete.breakingAngle = 1e-3;
+  concrete.stretchThreshold = 1e-4;
+  concrete.crushEfficiency = 1e-3;
+  Material softBrick = softConcrete;
+  softBrick.name = "brick_soft";
+  softBrick.density = 1900;
+  softBrick.bondWorkIndex = 11.8;
+  softBrick.tensileStrength = 0.3e6;
+  softBrick.compressiveStrength = 3e6;
+  softBrick.stretchThreshold = 0.01;
+  Material softGlass = softConcrete;
+  softGlass.name = "glass_soft";
+  softGlass.density = 2500;
+  softGlass.bondWorkIndex = 3.08;
+  softGlass.youngsModulus = 60e6;
+  softGlass.tensileStrength = 0.6e6;
+  softGlass.compressiveStrength = 12e6;
+  softGlass.stretchThreshold = 0.01;
+  softGlass.friction = 0.4;
+  return {softConcrete, concrete, softBrick, softGlass};
+}
+
+}  // namespace
+
+Material material(std::string_view name) {
+  std::string known;
+  for (const Material& m : presets()) {
+    if (m.name == name) return m;
+    known += (known.empty() ? "" : ", ") + m.name;
+  }
+  throw Error("material: \"" + std::string(name) + "\" is not known, must be one of " + known);
+}
+
+std::vector<std::string> materialNames() {
+  std::vector<std::string> names;
+  for (const Material& m : presets()) names.push_back(m.name);
+  return names;
+}
+
+Model Model::paper() {
+  Model model;
+  model.breakCriterion = BreakCriterion::Stretch;
+  model.rotationalStiffness = false;
+  model.contactBesideSpring = true;
+  model.coulombFriction = false;
+  model.conserveDebris = false;
+  model.debrisSizes = DebrisSizes::Number;
+  model.cellJoining = CellJoining::Direct;
+  return model;
+}
+
+}  // namespace rubble

@@ -1,0 +1,110 @@
+// Bodies and solvers for the tests of the element mechanics.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "edem/solver.h"
+#include "support/grid_asset.h"
+
+namespace rubble::test {
+
+inline const Eigen::Vector3d kGravity(0, -9.81, 0);
+inline const Eigen::Vector3d kNoGravity = Eigen::Vector3d::Zero();
+inline constexpr double kFrame = 1.0 / 60;
+
+/// A block of cubes of 0.2 m; without any damping or friction unless the test sets some.
+inline edem::BodyDef block(const std::array<int, 3>& cubes, bool anchored = false, double edge = 0.2) {
+  GridAssetDef grid;
+  grid.cubes = cubes;
+  grid.edge = edge;
+  grid.anchored = anchored;
+  edem::BodyDef def;
+  def.asset = std::make_shared<const Asset>(gridAsset(grid));
+  def.anchored = anchored;
+  def.material.springDamping = 0;
+  def.material.contactDamping = 0;
+  def.material.friction = 0;
+  return def;
+}
+
+template <class Real>
+std::unique_ptr<edem::Solver> makeSolver(bool breaking = true) {
+  edem::SolverDef def;
+  def.breaking = breaking;
+  def.crushing = breaking;
+  return edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, def);
+}
+
+/// A ball without spin; mass in kilograms, radius in metres.
+inline edem::RigidProxy ball(double radius, double mass, const Eigen::Vector3d& at,
+                             const Eigen::Vector3d& velocity) {
+  edem::RigidProxy proxy;
+  proxy.position = at;
+  proxy.velocity = velocity;
+  proxy.inverseMass = 1 / mass;
+  proxy.inverseInertia.setConstant(1 / (0.4 * mass * radius * radius));
+  edem::Collider sphere;
+  sphere.size.setConstant(radius);
+  proxy.parts = {sphere};
+  return proxy;
+}
+
+/// One body driven stage by stage, for tests that need its state in their own hands. The order is that of
+/// Solver::tick.
+template <class Real>
+class OneBody {
+ public:
+  explicit OneBody(const edem::BodyDef& def) {
+    m_bodies.push_back(std::make_unique<edem::Body<Real>>(edem::makeBody<Real>(def, 0)));
+  }
+  edem::Body<Real>& body() { return *m_bodies[0]; }
+  const edem::Books& books() const { return m_books; }
+  const edem::TickReport& report() const { return m_report; }
+
+  void substep(double step, bool breaking) {
+    edem::Body<Real>& b = body();
+    m_books.closeStep();
+    edem::beginSubstep(b);
+    m_lists.build(m_bodies, 0.5 * double(b.radius));
+    m_books.elastic = edem::accumulateSprings(b, step, breaking, m_books);
+    for (edem::PairList& l : m_lists.lists()) m_books.elastic += edem::accumulateContacts(l, b, b);
+    edem::applyBreaks(b, 0, step, m_lists, m_books, m_report);
+    m_books.mass = m_books.kinetic = 0;
+    m_books.linear.setZero();
+    m_books.angular.setZero();
+    using Points = std::span<const edem::Vec3<Real>>;
+    edem::integrate(b, step, step, kNoGravity, Points(m_lists.grid(0).listed), m_books);
+  }
+
+ private:
+  std::vector<std::unique_ptr<edem::Body<Real>>> m_bodies;
+  edem::PairLists<Real> m_lists;
+  edem::Books m_books;
+  edem::TickReport m_report;
+};
+
+/// Numbers in [-1, 1], the same on every machine.
+class Numbers {
+ public:
+  double next() { return double(m_engine()) / double(std::mt19937::max()) * 2 - 1; }
+  Eigen::Vector3d vector(double size) {
+    const double x = next(), y = next(), z = next();
+    return size * Eigen::Vector3d(x, y, z);
+  }
+
+ private:
+  std::mt19937 m_engine{7};
+};
+
+using Scalars = ::testing::Types<float, double>;
+
+}  // namespace rubble::test
