@@ -21,9 +21,9 @@ struct DestructibleBody::Impl {
   std::unique_ptr<ElementShape> shape;
   std::unique_ptr<CouplerConstraint> coupler;
   std::unique_ptr<debris::Spawner> spawner;
-  std::vector<double> bondConstants;      ///< C_B of each element [J m^0.5]
-  std::vector<std::uint8_t> wasRoot;      ///< elements that were the lowest of a fragment
-  std::vector<btCollisionObject*> near;   ///< noted by the narrowphase of this tick
+  std::vector<double> bondConstants;     ///< C_B of each element [J m^0.5]
+  std::vector<std::uint8_t> wasRoot;     ///< elements that were the lowest of a fragment
+  std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };
 
 /// Marks our bodies for upcast, beside the collision type btRigidBody sets.

@@ -11,7 +11,8 @@ inline Eigen::Vector3d toEigen(const btVector3& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 inline Eigen::Quaterniond toEigen(const btQuaternion& q) {
-  return {static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()), static_cast<double>(q.z())};
+  return {static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
+          static_cast<double>(q.z())};
 }
 inline Eigen::Isometry3d toEigen(const btTransform& t) {
   return Eigen::Translation3d(toEigen(t.getOrigin())) * toEigen(t.getRotation()).normalized();

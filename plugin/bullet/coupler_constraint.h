@@ -1,5 +1,5 @@
-// The place in Bullet's solver where the substeps run: before contact rows, once a tick, so that a stack on a destructible
-// body feels its support in the same tick. It has no rows of its own.
+// The place in Bullet's solver where the substeps run: before contact rows, once a tick, so that a stack on a
+// destructible body feels its support in the same tick. It has no rows of its own.
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>

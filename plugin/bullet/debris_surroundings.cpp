@@ -12,8 +12,8 @@ namespace rubble {
 RUBBLE_ABI_BEGIN
 namespace {
 
-constexpr double kTouch = 1e-5;     // nearer than this is a touch [m]
-constexpr int kMostAdvances = 32;   // a grazing sweep converges slowly; what is left then is no touch
+constexpr double kTouch = 1e-5;    // nearer than this is a touch [m]
+constexpr int kMostAdvances = 32;  // a grazing sweep converges slowly; what is left then is no touch
 
 /// Velocity change along n of a rigid body for a unit impulse at `at`.
 double inverseMassAt(const edem::RigidProxy& p, const Eigen::Vector3d& at, const Eigen::Vector3d& n) {
@@ -79,8 +79,8 @@ void DebrisSurroundings::addElements(std::uint32_t body, const Eigen::AlignedBox
   if (!m_near.empty()) m_largest = std::max(m_largest, radius);
 }
 
-bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                     double radius, debris::DebrisHit& hit) const {
+bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d& from,
+                                     const Eigen::Vector3d& to, double radius, debris::DebrisHit& hit) const {
   Eigen::AlignedBox3d path(from.cwiseMin(to), from.cwiseMax(to));
   path.min().array() -= radius;
   path.max().array() += radius;
@@ -116,8 +116,9 @@ bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d
   return found;
 }
 
-bool DebrisSurroundings::sweepElement(std::uint32_t ball, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                      double radius, debris::DebrisHit& hit) const {
+bool DebrisSurroundings::sweepElement(std::uint32_t ball, const Eigen::Vector3d& from,
+                                      const Eigen::Vector3d& to, double radius,
+                                      debris::DebrisHit& hit) const {
   const double reach = m_balls[ball].radius + radius;
   const Eigen::Vector3d along = to - from, out = from - m_centres[ball];
   const double a = along.squaredNorm(), b = out.dot(along), c = out.squaredNorm() - reach * reach;
@@ -151,7 +152,9 @@ bool DebrisSurroundings::sweep(const Eigen::Vector3d& from, const Eigen::Vector3
   if (m_centres.empty()) return found;
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(m_largest + radius);
   const Eigen::Vector3d low = from.cwiseMin(to) - reach, high = from.cwiseMax(to) + reach;
-  const auto consider = [&](std::uint32_t ball) { found = sweepElement(ball, from, to, radius, hit) || found; };
+  const auto consider = [&](std::uint32_t ball) {
+    found = sweepElement(ball, from, to, radius, hit) || found;
+  };
   if (m_grid.cellsIn(low, high) > double(m_centres.size())) {
     for (std::uint32_t ball = 0; ball < m_centres.size(); ++ball) consider(ball);
   } else {

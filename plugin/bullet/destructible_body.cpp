@@ -31,10 +31,18 @@ DestructibleBody* DestructibleBody::upcast(btCollisionObject* object) {
   return const_cast<DestructibleBody*>(upcast(static_cast<const btCollisionObject*>(object)));
 }
 
-std::uint32_t DestructibleBody::id() const { return m_impl->id; }
-const std::shared_ptr<const Asset>& DestructibleBody::asset() const { return m_impl->asset; }
-const Material& DestructibleBody::material() const { return m_impl->material; }
-const Model& DestructibleBody::model() const { return m_impl->model; }
+std::uint32_t DestructibleBody::id() const {
+  return m_impl->id;
+}
+const std::shared_ptr<const Asset>& DestructibleBody::asset() const {
+  return m_impl->asset;
+}
+const Material& DestructibleBody::material() const {
+  return m_impl->material;
+}
+const Model& DestructibleBody::model() const {
+  return m_impl->model;
+}
 
 void DestructibleBody::poses(std::span<ElementPose> out) const {
   const edem::Solver& solver = *m_impl->world->solver;
@@ -72,7 +80,9 @@ btVector3 DestructibleBody::linearMomentum() const {
   return bullet::toBullet(sum);
 }
 
-bool DestructibleBody::isAsleep() const { return m_impl->world->solver->view(m_impl->id).asleep; }
+bool DestructibleBody::isAsleep() const {
+  return m_impl->world->solver->view(m_impl->id).asleep;
+}
 
 RUBBLE_ABI_END
 }  // namespace rubble

@@ -17,16 +17,22 @@ Destruction::Destruction(btDiscreteDynamicsWorld& world, const DestructionDef& d
   world.addAction(this);
 }
 
-Destruction::~Destruction() { m_impl->world.removeAction(this); }
+Destruction::~Destruction() {
+  m_impl->world.removeAction(this);
+}
 
-DestructibleBody* Destruction::addBody(const DestructibleBodyDef& def) { return m_impl->addBody(def); }
+DestructibleBody* Destruction::addBody(const DestructibleBodyDef& def) {
+  return m_impl->addBody(def);
+}
 
 void Destruction::removeBody(DestructibleBody* body) {
   m_impl->world.removeRigidBody(body);
   delete body;
 }
 
-std::span<DestructibleBody* const> Destruction::bodies() const { return m_impl->bodies; }
+std::span<DestructibleBody* const> Destruction::bodies() const {
+  return m_impl->bodies;
+}
 
 const Events& Destruction::takeEvents() {
   const Events& full = m_impl->events[m_impl->filling];
@@ -35,7 +41,9 @@ const Events& Destruction::takeEvents() {
   return full;
 }
 
-const Ledger& Destruction::ledger() const { return m_impl->ledgerBook.ledger(); }
+const Ledger& Destruction::ledger() const {
+  return m_impl->ledgerBook.ledger();
+}
 
 std::span<const DebrisPiece> Destruction::debris() const {
   return m_impl->debrisSystem ? m_impl->debrisSystem->pieces() : std::span<const DebrisPiece>{};
@@ -59,14 +67,28 @@ DestructionCounts Destruction::counts() const {
   return c;
 }
 
-DestructionTimes Destruction::takeTimes() { return std::exchange(m_impl->times, {}); }
-const std::string& Destruction::failure() const { return m_impl->failure; }
-double Destruction::stableSubstep() const { return m_impl->solver->stableStep(); }
-int Destruction::lastSubsteps() const { return m_impl->substeps; }
-std::uint64_t Destruction::hash() const { return m_impl->solver->hash(); }
-std::uint64_t Destruction::debrisHash() const { return m_impl->debrisSystem ? m_impl->debrisSystem->hash() : 0; }
+DestructionTimes Destruction::takeTimes() {
+  return std::exchange(m_impl->times, {});
+}
+const std::string& Destruction::failure() const {
+  return m_impl->failure;
+}
+double Destruction::stableSubstep() const {
+  return m_impl->solver->stableStep();
+}
+int Destruction::lastSubsteps() const {
+  return m_impl->substeps;
+}
+std::uint64_t Destruction::hash() const {
+  return m_impl->solver->hash();
+}
+std::uint64_t Destruction::debrisHash() const {
+  return m_impl->debrisSystem ? m_impl->debrisSystem->hash() : 0;
+}
 
-void Destruction::updateAction(btCollisionWorld*, btScalar dt) { m_impl->finish(static_cast<double>(dt)); }
+void Destruction::updateAction(btCollisionWorld*, btScalar dt) {
+  m_impl->finish(static_cast<double>(dt));
+}
 
 void Destruction::debugDraw(btIDebugDraw* drawer) {
   for (const DestructibleBody* body : m_impl->bodies) {
@@ -74,7 +96,8 @@ void Destruction::debugDraw(btIDebugDraw* drawer) {
     const auto radius = static_cast<btScalar>(m_impl->solver->radius(body->id()));
     for (std::size_t i = 0; i < view.alive.size(); ++i)
       if (view.alive[i])
-        drawer->drawSphere(bullet::toBullet(m_impl->solver->position(body->id(), i)), radius, btVector3(1, 0.6f, 0.2f));
+        drawer->drawSphere(bullet::toBullet(m_impl->solver->position(body->id(), i)), radius,
+                           btVector3(1, 0.6f, 0.2f));
   }
 }
 

@@ -42,7 +42,8 @@ class ElementAlgorithm : public btCollisionAlgorithm {
 }  // namespace
 
 btCollisionAlgorithm* ElementAlgorithms::CreateFunc::CreateCollisionAlgorithm(
-    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper*, const btCollisionObjectWrapper*) {
+    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper*,
+    const btCollisionObjectWrapper*) {
   static_assert(sizeof(ElementAlgorithm) <= 64);
   void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(ElementAlgorithm));
   return new (memory) ElementAlgorithm(info, isQuery);
@@ -50,7 +51,8 @@ btCollisionAlgorithm* ElementAlgorithms::CreateFunc::CreateCollisionAlgorithm(
 
 ElementAlgorithms::ElementAlgorithms(btCollisionDispatcher& dispatcher) : m_dispatcher(dispatcher) {
   for (int type = 0; type < MAX_BROADPHASE_COLLISION_TYPES; ++type) {
-    for (const auto& [a, b] : {std::pair(FAST_CONCAVE_MESH_PROXYTYPE + 0, type), std::pair(type, FAST_CONCAVE_MESH_PROXYTYPE + 0)}) {
+    for (const auto& [a, b] : {std::pair(FAST_CONCAVE_MESH_PROXYTYPE + 0, type),
+                               std::pair(type, FAST_CONCAVE_MESH_PROXYTYPE + 0)}) {
       dispatcher.registerCollisionCreateFunc(a, b, &m_contact);
       dispatcher.registerClosestPointsCreateFunc(a, b, &m_query);
     }
@@ -60,7 +62,8 @@ ElementAlgorithms::ElementAlgorithms(btCollisionDispatcher& dispatcher) : m_disp
 ElementAlgorithms::~ElementAlgorithms() {
   btCollisionConfiguration* stock = m_dispatcher.getCollisionConfiguration();
   for (int type = 0; type < MAX_BROADPHASE_COLLISION_TYPES; ++type) {
-    for (const auto& [a, b] : {std::pair(FAST_CONCAVE_MESH_PROXYTYPE + 0, type), std::pair(type, FAST_CONCAVE_MESH_PROXYTYPE + 0)}) {
+    for (const auto& [a, b] : {std::pair(FAST_CONCAVE_MESH_PROXYTYPE + 0, type),
+                               std::pair(type, FAST_CONCAVE_MESH_PROXYTYPE + 0)}) {
       m_dispatcher.registerCollisionCreateFunc(a, b, stock->getCollisionAlgorithmCreateFunc(a, b));
       m_dispatcher.registerClosestPointsCreateFunc(a, b, stock->getClosestPointsAlgorithmCreateFunc(a, b));
     }

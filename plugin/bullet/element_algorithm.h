@@ -1,4 +1,5 @@
-// Bullet's narrowphase for pairs with a destructible body: it notes who is near; the substeps find the contacts.
+// Bullet's narrowphase for pairs with a destructible body: it notes who is near; the substeps find the
+// contacts.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
@@ -10,7 +11,8 @@
 namespace rubble {
 RUBBLE_ABI_BEGIN
 
-/// Registers the algorithm for (destructible, anything) with one dispatcher, and puts back what was there when destroyed.
+/// Registers the algorithm for (destructible, anything) with one dispatcher, and puts back what was there
+/// when destroyed.
 class ElementAlgorithms {
  public:
   explicit ElementAlgorithms(btCollisionDispatcher& dispatcher);

@@ -31,7 +31,8 @@ void ElementShape::getAabb(const btTransform&, btVector3& low, btVector3& high) 
   high = m_high;
 }
 
-void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVector3&, const btVector3&) const {
+void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVector3&,
+                                       const btVector3&) const {
   if (m_hidden) return;
   // Bullet's generic concave path for rays: each element answers as a sphere.
   auto* ray = dynamic_cast<btTriangleRaycastCallback*>(callback);
@@ -52,7 +53,8 @@ void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVec
     const double t = middle - std::sqrt((radius * radius - miss2) / length2);
     if (t < 0 || t > static_cast<double>(ray->m_hitFraction)) continue;
     const Eigen::Vector3d normal = (t * along - to).normalized();
-    ray->m_hitFraction = ray->reportHit(bullet::toBullet(normal), static_cast<btScalar>(t), 0, static_cast<int>(i));
+    ray->m_hitFraction =
+        ray->reportHit(bullet::toBullet(normal), static_cast<btScalar>(t), 0, static_cast<int>(i));
   }
 }
 

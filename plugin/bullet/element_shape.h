@@ -1,5 +1,5 @@
-// A destructible body's collision shape: the spheres of its living elements. Concave and of a type that nothing in Bullet uses, so
-// that our own algorithm is called for every pair.
+// A destructible body's collision shape: the spheres of its living elements. Concave and of a type that
+// nothing in Bullet uses, so that our own algorithm is called for every pair.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
@@ -18,12 +18,13 @@ class ElementShape : public btConcaveShape {
 
   /// Takes the elements' bounds, grown by what they may travel before the next call [m].
   void refit(double travel);
-  /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a ball in the air
-  /// that our contacts have let through.
+  /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a
+  /// ball in the air that our contacts have let through.
   void setHidden(bool hidden) { m_hidden = hidden; }
 
   void getAabb(const btTransform& t, btVector3& low, btVector3& high) const override;
-  void processAllTriangles(btTriangleCallback* callback, const btVector3& low, const btVector3& high) const override;
+  void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
+                           const btVector3& high) const override;
   void calculateLocalInertia(btScalar mass, btVector3& inertia) const override;
   void setLocalScaling(const btVector3&) override {}
   const btVector3& getLocalScaling() const override { return m_scaling; }

@@ -11,7 +11,9 @@ void LedgerBook::addExchange(const debris::Exchange& exchange) {
   m_air += exchange.air;
   m_contact += exchange.contact;
   m_removed += exchange.removed;
-  m_impulseSizes += exchange.gravity.linear.norm() + exchange.air.linear.norm() + exchange.contact.linear.norm();
+  m_surfaceWork += exchange.workOnSurfaces;
+  m_impulseSizes +=
+      exchange.gravity.linear.norm() + exchange.air.linear.norm() + exchange.contact.linear.norm();
 }
 
 void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
@@ -26,9 +28,9 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   // Momentum: what is there, and what left, is what was there and what was exchanged (DESIGN 3.12).
   l.linearMomentum = books.linear + debris.linear;
   l.angularMomentum = books.angular + debris.angularAbout(books.centre);
-  const Eigen::Vector3d linear =
-      books.initialLinear + books.bullet.linear + books.gravity.linear + books.anchors.linear + m_gravity.linear +
-      m_air.linear + m_contact.linear - books.sleptLinear - m_dust.linear - m_removed.linear;
+  const Eigen::Vector3d linear = books.initialLinear + books.bullet.linear + books.gravity.linear +
+                                 books.anchors.linear + m_gravity.linear + m_air.linear + m_contact.linear -
+                                 books.sleptLinear - m_dust.linear - m_removed.linear;
   const Eigen::Vector3d angular = books.initialAngular + books.bullet.angular + books.gravity.angular +
                                   books.anchors.angular + m_gravity.angularAbout(books.centre) +
                                   m_air.angularAbout(books.centre) + m_contact.angularAbout(books.centre) -
@@ -43,12 +45,13 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.elastic = books.elastic;
   l.debris = debris.kinetic;
   l.gravity = books.gravity.work.done() + m_gravity.energy;
-  l.exchanged = books.bullet.work.done();
-  l.dissipated = -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy;
+  l.exchanged = books.bullet.work.done() - m_surfaceWork;
+  l.dissipated =
+      -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy - m_surfaceWork;
   l.fracture = books.fracture - m_given;
   l.removed = books.slept + m_dust.kinetic + m_removed.kinetic;
-  m_largestEnergy = std::max({m_largestEnergy, 1e-6,
-                              l.kinetic + l.elastic + std::abs(l.exchanged) + std::abs(l.gravity)});
+  m_largestEnergy =
+      std::max({m_largestEnergy, 1e-6, l.kinetic + l.elastic + std::abs(l.exchanged) + std::abs(l.gravity)});
   const double held = l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed;
   l.energyError = std::abs(held - books.initialEnergy - l.gravity - l.exchanged) / m_largestEnergy;
 }

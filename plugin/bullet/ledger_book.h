@@ -25,6 +25,7 @@ class LedgerBook {
   Ledger m_ledger;
   debris::Motion m_dust, m_removed;
   debris::Impulse m_gravity, m_air, m_contact;
+  double m_surfaceWork = 0;    // by debris on what they hit [J]
   double m_given = 0;          // of the fracture energy, to debris [J]
   double m_impulseSizes = 0;   // sum of |impulse| on debris [N s]
   double m_largestEnergy = 0;  // [J]

@@ -118,7 +118,8 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
       // Any other convex shape by the 42 directions of Bullet's own hull of it, margin included.
       btShapeHull sampled(static_cast<const btConvexShape*>(&shape));
       if (sampled.buildHull(0))
-        for (int i = 0; i < sampled.numVertices(); ++i) points.push_back(toEigen(sampled.getVertexPointer()[i]));
+        for (int i = 0; i < sampled.numVertices(); ++i)
+          points.push_back(toEigen(sampled.getVertexPointer()[i]));
       break;
   }
   if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE || shape.getShapeType() == BOX_SHAPE_PROXYTYPE ||
@@ -137,7 +138,10 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
   const int type = shape.getShapeType();
   if (std::find(m_refused.begin(), m_refused.end(), type) != m_refused.end()) return;
   m_refused.push_back(type);
-  if (m_log) m_log(LogLevel::Warning, std::string("shape ") + shape.getName() + " does not touch destructible bodies: only convex shapes, planes and compounds of them do");
+  if (m_log)
+    m_log(LogLevel::Warning,
+          std::string("shape ") + shape.getName() +
+              " does not touch destructible bodies: only convex shapes, planes and compounds of them do");
 }
 
 edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
@@ -155,7 +159,8 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
     // All that Bullet's solver will integrate in this tick: gravity and the application's forces.
     proxy.acceleration = proxy.inverseMass * toEigen(rigid->getTotalForce());
     proxy.inverseInertia = toEigen(rigid->getInvInertiaDiagLocal());
-    proxy.angularAcceleration = toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
+    proxy.angularAcceleration =
+        toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
   }
   addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), proxy.parts);
   return proxy;

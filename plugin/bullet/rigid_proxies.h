@@ -19,8 +19,8 @@ class RigidProxies {
  public:
   explicit RigidProxies(LogFunction log) : m_log(std::move(log)) {}
 
-  /// Position, motion and surface of an object now. Shapes that are not supported (triangle meshes, height fields)
-  /// leave `parts` empty and are logged once.
+  /// Position, motion and surface of an object now. Shapes that are not supported (triangle meshes, height
+  /// fields) leave `parts` empty and are logged once.
   edem::RigidProxy make(const btCollisionObject& object);
 
  private:
@@ -28,8 +28,10 @@ class RigidProxies {
     std::uint64_t points = 0;  // hash of what it was made from: shapes may be changed or replaced
     std::shared_ptr<const edem::Hull> hull;
   };
-  void addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place, std::vector<edem::Collider>& parts);
-  std::shared_ptr<const edem::Hull> hullOf(const btCollisionShape& shape, const std::vector<Eigen::Vector3d>& points);
+  void addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
+                std::vector<edem::Collider>& parts);
+  std::shared_ptr<const edem::Hull> hullOf(const btCollisionShape& shape,
+                                           const std::vector<Eigen::Vector3d>& points);
 
   LogFunction m_log;
   std::unordered_map<const btCollisionShape*, CachedHull> m_hulls;  // looked up by key only

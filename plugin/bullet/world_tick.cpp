@@ -16,8 +16,8 @@ using bullet::toEigen;
 
 /// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
 constexpr double kQuietSpeed = 0.01;
-/// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm; above, fast bodies
-/// end where the substeps brought them (plugin/README.md).
+/// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm;
+/// above, fast bodies end where the substeps brought them (plugin/README.md).
 constexpr double kFixBegin = 0.05, kFixFull = 0.10;
 /// Resting debris within this many radii of a break wake up.
 constexpr double kWakeRadii = 3;
@@ -41,8 +41,9 @@ class Stopwatch {
 Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition)
     : world(bulletWorld),
       def(definition),
-      solver(edem::Solver::make(definition.precision, {definition.substepSafety, definition.maxSubstepsPerFrame,
-                                                       definition.breaking, definition.crushing})),
+      solver(
+          edem::Solver::make(definition.precision, {definition.substepSafety, definition.maxSubstepsPerFrame,
+                                                    definition.breaking, definition.crushing})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
       proxyMaker(definition.log) {
   if (!def.debris) return;
@@ -76,7 +77,8 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   double mass = 0;
   const Material& m = bodyDef.material;
   for (const double volume : bodyDef.asset->volumes) {
-    const double constant = debris::bondConstant(m.bondWorkIndex, m.crushEfficiency, m.sizeModulus, m.density * volume);
+    const double constant =
+        debris::bondConstant(m.bondWorkIndex, m.crushEfficiency, m.sizeModulus, m.density * volume);
     impl->bondConstants.push_back(constant);
     elements.crushEnergy.push_back(debris::crushingEnergy(constant, bodyDef.asset->radius));
     mass += m.density * volume;
@@ -93,7 +95,8 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
 
   btVector3 inertia;
   impl->shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, impl->shape.get(), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, impl->shape.get(),
+                                                inertia);
   auto* body = new DestructibleBody(info, std::move(impl));
   body->impl().coupler = std::make_unique<CouplerConstraint>(*body, *this);
   body->setActivationState(DISABLE_DEACTIVATION);
@@ -209,7 +212,8 @@ void Destruction::Impl::lateImpulses() {
   }
 }
 
-/// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps had it.
+/// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
+/// had it.
 void Destruction::Impl::fixPositions(double) {
   double radius = std::numeric_limits<double>::infinity();
   for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
@@ -232,7 +236,8 @@ void Destruction::Impl::bookEvents() {
   const edem::TickReport& report = solver->report();
   wakeBoxes.clear();
   for (const edem::BrokenSpring& s : report.broken) {
-    record(out.springsBroken, {s.body, s.spring, s.mode, static_cast<float>(s.energy), s.position.cast<float>()});
+    record(out.springsBroken,
+           {s.body, s.spring, s.mode, static_cast<float>(s.energy), s.position.cast<float>()});
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kWakeRadii * solver->radius(s.body));
     wakeBoxes.emplace_back(s.position - reach, s.position + reach);
   }
@@ -256,7 +261,8 @@ void Destruction::Impl::bookEvents() {
     }
     for (std::uint32_t i = 0; i < split.size(); ++i) {
       const bool root = view.fragment[i] == i;
-      if (root && !body->impl().wasRoot[i]) record(out.fragmentsSplit, {body->id(), i, split[i].elements, split[i].mass});
+      if (root && !body->impl().wasRoot[i])
+        record(out.fragmentsSplit, {body->id(), i, split[i].elements, split[i].mass});
       body->impl().wasRoot[i] = root;
     }
   }
@@ -305,8 +311,9 @@ void Destruction::Impl::breakElements() {
       record(out.debrisSpawned, {c.body, c.element, static_cast<float>(batch.pieces[p].radius),
                                  static_cast<float>(batch.pieces[p].mass)});
     if (batch.dustMotion.mass > 0)
-      record(out.dustSources, {c.position.cast<float>(), c.velocity.cast<float>(),
-                               static_cast<float>(batch.dustMotion.mass), static_cast<float>(own.material.dustRadius)});
+      record(out.dustSources,
+             {c.position.cast<float>(), c.velocity.cast<float>(), static_cast<float>(batch.dustMotion.mass),
+              static_cast<float>(own.material.dustRadius)});
   }
 }
 
@@ -316,7 +323,8 @@ void Destruction::Impl::stepDebris(double dt) {
       const btCollisionObject* object = world.getCollisionObjectArray()[i];
       const btRigidBody* rigid = btRigidBody::upcast(object);
       if (!rigid || object->isStaticOrKinematicObject() || DestructibleBody::upcast(object)) continue;
-      if (!rigid->isActive() || static_cast<double>(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
+      if (!rigid->isActive() || static_cast<double>(rigid->getLinearVelocity().length()) < kQuietSpeed)
+        continue;
       btVector3 low, high;
       rigid->getAabb(low, high);
       wakeBoxes.emplace_back(toEigen(low), toEigen(high));
@@ -332,7 +340,8 @@ void Destruction::Impl::stepDebris(double dt) {
       if (!rigid) continue;
       rigid->activate();
       rigid->applyCentralImpulse(toBullet(impulses[s].linear));
-      rigid->applyTorqueImpulse(toBullet(impulses[s].angularAbout(toEigen(rigid->getCenterOfMassPosition()))));
+      rigid->applyTorqueImpulse(
+          toBullet(impulses[s].angularAbout(toEigen(rigid->getCenterOfMassPosition()))));
     }
   }
   const debris::Exchange exchange = debrisSystem->takeExchange();

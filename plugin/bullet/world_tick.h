@@ -1,5 +1,5 @@
-// One tick of all destructible bodies of a world: who is near, substeps, impulses back, and after Bullet moved things the debris, the ledger
-// and the events.
+// One tick of all destructible bodies of a world: who is near, substeps, impulses back, and after Bullet
+// moved things the debris, the ledger and the events.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,8 @@ struct TouchedBody {
   btRigidBody* rigid = nullptr;  ///< null unless dynamic
   btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
   bool given = false;  ///< Bullet's solver has taken it
-  btVector3 freeEnd{0, 0, 0};  ///< where the body would be at the end of the tick under its impulse as a whole
+  btVector3 freeEnd{0, 0,
+                    0};  ///< where the body would be at the end of the tick under its impulse as a whole
 };
 
 struct Destruction::Impl {

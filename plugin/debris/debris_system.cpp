@@ -152,7 +152,6 @@ void DebrisSystem::step(double dt, const Eigen::Vector3d& gravity, DebrisCollide
 }
 
 void DebrisSystem::beginStep(double dt, const Eigen::Vector3d& gravity, DebrisCollider& collider) {
-  m_surfaces.assign(collider.surfaceCount(), {});
   Eigen::AlignedBox3d swept;
   const double fall = gravity.norm() * dt * dt;
   for (std::uint32_t index = m_moving.first; index != kNone; index = m_links[index].next) {
@@ -163,6 +162,7 @@ void DebrisSystem::beginStep(double dt, const Eigen::Vector3d& gravity, DebrisCo
     swept.extend(p.position + reach);
   }
   if (!swept.isEmpty()) collider.begin(swept);
+  m_surfaces.assign(collider.surfaceCount(), {});  // known once the collider has seen what is near
 }
 
 bool DebrisSystem::comesToRest(Particle& particle, double dt) const {

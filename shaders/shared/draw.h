@@ -29,20 +29,20 @@
 #define RUBBLE_DUST_LIGHT_IMAGE 1
 
 // Vertex attributes
-#define RUBBLE_CORNER_ATTRIBUTE 0      // uint: cell vertex * 4 + place of the owner among its elements
-#define RUBBLE_NORMAL_ATTRIBUTE 1      // vec4: normal at rest; w is 1 on fracture faces
-#define RUBBLE_PLACE_ATTRIBUTE 2       // vec4: debris position, scale
-#define RUBBLE_ROTATION_ATTRIBUTE 3    // vec4: debris orientation
-#define RUBBLE_ELEMENT_ATTRIBUTE 4     // uint: debris element
-#define RUBBLE_POSITION_ATTRIBUTE 5    // vec3: vertex of a prop
+#define RUBBLE_CORNER_ATTRIBUTE 0    // uint: cell vertex * 4 + place of the owner among its elements
+#define RUBBLE_NORMAL_ATTRIBUTE 1    // vec4: normal at rest; w is 1 on fracture faces
+#define RUBBLE_PLACE_ATTRIBUTE 2     // vec4: debris position, scale
+#define RUBBLE_ROTATION_ATTRIBUTE 3  // vec4: debris orientation
+#define RUBBLE_ELEMENT_ATTRIBUTE 4   // uint: debris element
+#define RUBBLE_POSITION_ATTRIBUTE 5  // vec3: vertex of a prop
 
 // Uniforms with a place of their own
-#define RUBBLE_OUTER_UNIFORM 0         // vec4: colour of the surface, gloss
-#define RUBBLE_INNER_UNIFORM 1         // vec4: colour of fracture faces, unused
-#define RUBBLE_MODEL_UNIFORM 2         // mat4 (takes one location)
-#define RUBBLE_GROUND_UNIFORM 3        // vec4: colour, height
-#define RUBBLE_GRID_UNIFORM 4          // ivec4: cells along an axis of the dust grid (x)
-#define RUBBLE_EXTINCTION_UNIFORM 5    // float: mass extinction times opacity [m^2/kg]
+#define RUBBLE_OUTER_UNIFORM 0       // vec4: colour of the surface, gloss
+#define RUBBLE_INNER_UNIFORM 1       // vec4: colour of fracture faces, unused
+#define RUBBLE_MODEL_UNIFORM 2       // mat4 (takes one location)
+#define RUBBLE_GROUND_UNIFORM 3      // vec4: colour, height
+#define RUBBLE_GRID_UNIFORM 4        // ivec4: cells along an axis of the dust grid (x)
+#define RUBBLE_EXTINCTION_UNIFORM 5  // float: mass extinction times opacity [m^2/kg]
 
 // Work-group of the volume kernels; 64 x 4 x 1 was the fastest shape measured in software.
 #define RUBBLE_COPY_GROUP_X 64
@@ -60,27 +60,29 @@ using vec4 = Eigen::Vector4f;
 struct Frame {
   mat4 viewProjection;
   mat4 inverseViewProjection;
-  mat4 worldToShadow;    // to [0, 1]^3 of the shadow map
-  mat4 worldToDustLight; // to [0, 1]^3 of the light volume
+  mat4 worldToShadow;     // to [0, 1]^3 of the shadow map
+  mat4 worldToDustLight;  // to [0, 1]^3 of the light volume
   mat4 dustLightToWorld;
-  vec4 eye;              // xyz [m]
-  vec4 sunDirection;     // xyz unit, towards the sun; w: offset along the normal against shadow acne [m]
+  vec4 eye;           // xyz [m]
+  vec4 sunDirection;  // xyz unit, towards the sun; w: offset along the normal against shadow acne [m]
   vec4 sunColour;
   vec4 skyAmbient;
   vec4 groundAmbient;
   vec4 skyZenith;
   vec4 skyHorizon;
-  vec4 viewport;         // width, height, 1 / width, 1 / height of the full picture
-  vec4 tone;             // x exposure, y 1 with the tone curve
-  vec4 dustMin;          // xyz corner of the dust grid [m]; w steps of a ray
-  vec4 dustMax;          // xyz the other corner; w 1 when there is a grid
-  vec4 dustColour;       // rgb albedo; w step of the light volume along the sunlight [m]
+  vec4 viewport;    // width, height, 1 / width, 1 / height of the full picture
+  vec4 tone;        // x exposure, y 1 with the tone curve
+  vec4 dustMin;     // xyz corner of the dust grid [m]; w steps of a ray
+  vec4 dustMax;     // xyz the other corner; w 1 when there is a grid
+  vec4 dustColour;  // rgb albedo; w step of the light volume along the sunlight [m]
 };
 
 #ifdef __cplusplus
 }  // namespace rubble::shared
 #else
-layout(std140, binding = RUBBLE_FRAME_BLOCK) uniform FrameBlock { Frame uFrame; };
+layout(std140, binding = RUBBLE_FRAME_BLOCK) uniform FrameBlock {
+  Frame uFrame;
+};
 #endif
 
 #endif

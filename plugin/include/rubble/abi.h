@@ -1,5 +1,5 @@
-// Bullet's float and double builds have classes of other sizes. Everything of ours that touches Bullet lives in an inline
-// namespace named after the precision, so that a mixed build fails at link and not at run time.
+// Bullet's float and double builds have classes of other sizes. Everything of ours that touches Bullet lives
+// in an inline namespace named after the precision, so that a mixed build fails at link and not at run time.
 #pragma once
 
 #include <LinearMath/btScalar.h>

@@ -1,5 +1,5 @@
-// What cooking a closed surface gives: elements, springs, anchors and cell meshes. Immutable and shared by any
-// number of bodies; the state of a body is elsewhere. Plain arrays, SI units, in the mesh's own frame.
+// What cooking a closed surface gives: elements, springs, anchors and cell meshes. Immutable and shared by
+// any number of bodies; the state of a body is elsewhere. Plain arrays, SI units, in the mesh's own frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,8 +30,8 @@ struct AssetAnchor {
   Eigen::Vector3d point;  ///< the tied point: centroid of that face [m]
 };
 
-/// A place where up to four cells meet. A mesh vertex touches one cell, a mesh edge cut by a bisector two, a triangle
-/// cut by a Voronoi edge three, a Voronoi vertex four; unused places hold kNoElement and stand last.
+/// A place where up to four cells meet. A mesh vertex touches one cell, a mesh edge cut by a bisector two, a
+/// triangle cut by a Voronoi edge three, a Voronoi vertex four; unused places hold kNoElement and stand last.
 struct CellVertex {
   Eigen::Vector3f position;  ///< at rest [m]
   std::array<std::uint32_t, 4> elements;
@@ -52,8 +52,8 @@ struct CellFace {
   Eigen::Vector3f centroid;  ///< at rest [m]
 };
 
-/// The mesh of one element. Triangles [firstTriangle, firstTriangle + outerTriangles) lie on the solid's surface, the
-/// innerTriangles behind them on faces towards other cells.
+/// The mesh of one element. Triangles [firstTriangle, firstTriangle + outerTriangles) lie on the solid's
+/// surface, the innerTriangles behind them on faces towards other cells.
 struct Cell {
   std::uint32_t firstTriangle;
   std::uint32_t outerTriangles;
@@ -67,7 +67,8 @@ struct Asset {
   double radius = 0;                       ///< r of every element [m]
   std::vector<Eigen::Vector3d> positions;  ///< centres at rest [m] (n x 3)
   std::vector<double> volumes;             ///< of the clipped Voronoi cells [m^3]; they add up to the solid's
-  std::vector<double> gyrations;           ///< a third of the trace of the cell's inertia about its centroid, per kilogram [m^2]
+  std::vector<double>
+      gyrations;  ///< a third of the trace of the cell's inertia about its centroid, per kilogram [m^2]
 
   std::vector<AssetSpring> springs;  ///< sorted by (first, second)
   std::vector<AssetAnchor> anchors;  ///< sorted by element
@@ -75,9 +76,10 @@ struct Asset {
   // Cell meshes.
   std::vector<CellVertex> vertices;
   std::vector<CellCorner> corners;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< into corners; counter-clockwise seen from outside the cell
-  std::vector<CellFace> faces;                          ///< grouped by cell
-  std::vector<Cell> cells;                              ///< one an element (n)
+  std::vector<std::array<std::uint32_t, 3>>
+      triangles;                ///< into corners; counter-clockwise seen from outside the cell
+  std::vector<CellFace> faces;  ///< grouped by cell
+  std::vector<Cell> cells;      ///< one an element (n)
 
   std::size_t elementCount() const { return positions.size(); }
   double volume() const;  ///< of the solid [m^3]
@@ -95,7 +97,8 @@ struct Asset {
 
 /// Writes a versioned little-endian file with sizes and a checksum; the file appears whole or not at all.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file and trusts nothing in it. Throws rubble::Error naming the file and what is wrong with it.
+/// Reads such a file and trusts nothing in it. Throws rubble::Error naming the file and what is wrong with
+/// it.
 Asset load(const std::filesystem::path& file);
 
 }  // namespace rubble

@@ -11,8 +11,8 @@
 namespace rubble {
 RUBBLE_ABI_BEGIN
 
-/// Bullet sees a body of true mass that it never moves itself: shape and motion are the elements'. Its Bullet transform stays
-/// the identity; ask poses() for where the elements are. Made by Destruction::addBody only.
+/// Bullet sees a body of true mass that it never moves itself: shape and motion are the elements'. Its Bullet
+/// transform stays the identity; ask poses() for where the elements are. Made by Destruction::addBody only.
 class DestructibleBody : public btRigidBody {
  public:
   ~DestructibleBody() override;

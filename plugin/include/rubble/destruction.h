@@ -1,6 +1,6 @@
-// Destructible bodies in a Bullet world. Four calls are all an application needs: construct a Destruction beside the
-// world, addBody, stepSimulation as always, takeEvents. Nothing of Bullet is subclassed by the application, no
-// tick callback is taken, and nothing here needs GL or CGAL.
+// Destructible bodies in a Bullet world. Four calls are all an application needs: construct a Destruction
+// beside the world, addBody, stepSimulation as always, takeEvents. Nothing of Bullet is subclassed by the
+// application, no tick callback is taken, and nothing here needs GL or CGAL.
 #pragma once
 
 #include <BulletDynamics/Dynamics/btActionInterface.h>
@@ -31,13 +31,14 @@ struct DestructionDef {
   int maxSubstepsPerFrame = 20000;
   /// Share of the stable substep that is used, 0 to 1.
   double substepSafety = 0.9;
-  bool debris = true;             ///< false: crushed elements vanish into dust events and booked mass, no particles are kept
+  bool debris =
+      true;  ///< false: crushed elements vanish into dust events and booked mass, no particles are kept
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces; beyond it the oldest resting one is removed
   std::uint32_t maxEvents = 1u << 20;
-  bool sleep = true;              ///< bodies at rest are put to sleep by Bullet's own rules
-  bool breaking = true;           ///< false: springs never break (tests of stability)
-  bool crushing = true;           ///< false: elements never crush
-  std::uint64_t seed = 1;         ///< of the debris sizes
+  bool sleep = true;       ///< bodies at rest are put to sleep by Bullet's own rules
+  bool breaking = true;    ///< false: springs never break (tests of stability)
+  bool crushing = true;    ///< false: elements never crush
+  std::uint64_t seed = 1;  ///< of the debris sizes
   LogFunction log;
 };
 
@@ -49,8 +50,8 @@ struct DestructibleBodyDef {
   btVector3 velocity = btVector3(0, 0, 0);             ///< of the centre of mass [m/s]
   btVector3 spin = btVector3(0, 0, 0);                 ///< [rad/s]
   double massDamping = 0;  ///< decay rate of the deformation velocity [1/s]; the rigid motion is not damped
-  /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's gravity, so that it
-  /// stands still from the first step.
+  /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's
+  /// gravity, so that it stands still from the first step.
   bool anchored = true;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;
@@ -76,8 +77,9 @@ class Destruction : public btActionInterface {
   Destruction(const Destruction&) = delete;
   Destruction& operator=(const Destruction&) = delete;
 
-  /// Makes a body and puts it into the world. Throws rubble::Error for a bad definition, or when its stable substep would
-  /// need more than maxSubstepsPerFrame. The world's usual teardown (remove and delete every object) may delete it.
+  /// Makes a body and puts it into the world. Throws rubble::Error for a bad definition, or when its stable
+  /// substep would need more than maxSubstepsPerFrame. The world's usual teardown (remove and delete every
+  /// object) may delete it.
   DestructibleBody* addBody(const DestructibleBodyDef& def);
   void removeBody(DestructibleBody* body);
   std::span<DestructibleBody* const> bodies() const;
@@ -89,7 +91,8 @@ class Destruction : public btActionInterface {
   std::span<const DebrisPiece> debris() const;
   DestructionCounts counts() const;
   DestructionTimes takeTimes();
-  /// Why the simulation stopped (a state that is not finite); empty while all is well. Nothing moves after it.
+  /// Why the simulation stopped (a state that is not finite); empty while all is well. Nothing moves after
+  /// it.
   const std::string& failure() const;
   /// Stable substep of the stiffest body now [s], and the substeps of the last tick.
   double stableSubstep() const;

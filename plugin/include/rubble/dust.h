@@ -1,5 +1,6 @@
-// The dust grid: stable fluids carrying dust, on the CPU or in GL compute shaders. One interface; the CPU back end is
-// the reference of the other. Called by the application once a frame, after stepSimulation (DustGrid::step).
+// The dust grid: stable fluids carrying dust, on the CPU or in GL compute shaders. One interface; the CPU
+// back end is the reference of the other. Called by the application once a frame, after stepSimulation
+// (DustGrid::step).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,29 +27,30 @@ struct DustSource {
 struct DustObstacle {
   enum class Kind : std::uint32_t { Sphere, Box };
   Kind kind = Kind::Sphere;
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();              ///< of its centre [m]
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of its centre [m]
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  Eigen::Vector3f halfExtents = Eigen::Vector3f::Constant(0.5f);   ///< of a box [m]; x of a sphere is its radius
-  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();              ///< linear [m/s]
-  Eigen::Vector3f spin = Eigen::Vector3f::Zero();                  ///< angular [rad/s]
+  Eigen::Vector3f halfExtents =
+      Eigen::Vector3f::Constant(0.5f);                 ///< of a box [m]; x of a sphere is its radius
+  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();  ///< linear [m/s]
+  Eigen::Vector3f spin = Eigen::Vector3f::Zero();      ///< angular [rad/s]
 };
 
 struct DustGridDef {
   /// Cells along each axis: a power of two, 8 to 256.
   int resolution = 64;
-  /// The box of the grid in the world [m]. Its floor (min y) is ground: dust settles there. The other five sides are open
-  /// to dust: what drifts out has left.
+  /// The box of the grid in the world [m]. Its floor (min y) is ground: dust settles there. The other five
+  /// sides are open to dust: what drifts out has left.
   Eigen::Vector3f min = Eigen::Vector3f(-2, 0, -2);
   Eigen::Vector3f max = Eigen::Vector3f(2, 3, 2);
-  float grainRadius = 1e-6f;   ///< R_dust [m]; sets the settling speed (Stokes) and the extinction
-  float grainDensity = 2400;   ///< [kg/m^3]
-  float airDensity = 1.2f;     ///< [kg/m^3]; dust-laden air is heavier and sinks (Boussinesq, clamped)
+  float grainRadius = 1e-6f;     ///< R_dust [m]; sets the settling speed (Stokes) and the extinction
+  float grainDensity = 2400;     ///< [kg/m^3]
+  float airDensity = 1.2f;       ///< [kg/m^3]; dust-laden air is heavier and sinks (Boussinesq, clamped)
   float airViscosity = 1.8e-5f;  ///< dynamic [Pa s]; for the Stokes settling speed
-  float gravity = 9.81f;       ///< [m/s^2], along -y
-  float vorticity = 0.3f;      ///< strength of vorticity confinement, dimensionless (0 off, usual 0.1 to 0.5)
-  float drag = 0.0f;           ///< decay rate of the air's velocity [1/s]
-  int pressureCycles = 3;      ///< multigrid V(1,1) cycles a step
-  int threads = 1;             ///< of the CPU back end; results do not depend on it
+  float gravity = 9.81f;         ///< [m/s^2], along -y
+  float vorticity = 0.3f;  ///< strength of vorticity confinement, dimensionless (0 off, usual 0.1 to 0.5)
+  float drag = 0.0f;       ///< decay rate of the air's velocity [1/s]
+  int pressureCycles = 3;  ///< multigrid V(1,1) cycles a step
+  int threads = 1;         ///< of the CPU back end; results do not depend on it
 };
 
 /// Where the emitted dust is now [kg]. emitted = air + settled + left + error.
@@ -66,12 +68,15 @@ class DustGrid {
   virtual ~DustGrid() = default;
 
   /// Advances the air and its dust by `dt` seconds. The GL back end needs its context current.
-  virtual void step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) = 0;
+  virtual void step(float dt, std::span<const DustSource> sources,
+                    std::span<const DustObstacle> obstacles) = 0;
 
-  /// Sums of the last step whose results have arrived: exact on the CPU, a step late on GL (never waited for).
+  /// Sums of the last step whose results have arrived: exact on the CPU, a step late on GL (never waited
+  /// for).
   virtual DustTotals totals() const = 0;
 
-  /// Dust density of every cell [kg/m^3], x fastest, then y, then z (n^3). Waits for the GL back end: tests and exports.
+  /// Dust density of every cell [kg/m^3], x fastest, then y, then z (n^3). Waits for the GL back end: tests
+  /// and exports.
   virtual void readDensity(std::vector<float>& density) const = 0;
   /// Air velocity of every cell [m/s], same order.
   virtual void readVelocity(std::vector<Eigen::Vector3f>& velocity) const = 0;
@@ -92,11 +97,13 @@ class DustGrid {
 
 /// Plain C++ on `def.threads` threads. Throws rubble::Error for a bad definition.
 std::unique_ptr<DustGrid> createDustGridCpu(const DustGridDef& def);
-/// Compute shaders in the current GL 4.3+ context. Throws rubble::Error without one. `shaderDirectory` holds dust/*.comp.
+/// Compute shaders in the current GL 4.3+ context. Throws rubble::Error without one. `shaderDirectory` holds
+/// dust/*.comp.
 std::unique_ptr<DustGrid> createDustGridGl(const DustGridDef& def, const std::string& shaderDirectory);
 
-/// Mass extinction of a cloud of grains of radius R [m] and density rho [kg/m^3]: 3 / (2 rho R_dust) [m^2/kg], the geometric
-/// limit (extinction efficiency 2) for spheres. About 625 for concrete at 1 micrometre.
+/// Mass extinction of a cloud of grains of radius R [m] and density rho [kg/m^3]: 3 / (2 rho R_dust)
+/// [m^2/kg], the geometric limit (extinction efficiency 2) for spheres. About 625 for concrete at 1
+/// micrometre.
 float massExtinction(float grainDensity, float grainRadius);
 
 }  // namespace rubble

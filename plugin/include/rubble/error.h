@@ -7,8 +7,8 @@
 
 namespace rubble {
 
-/// Thrown for bad definitions, meshes and files, before anything is built. `what()` is one line that says where,
-/// what is wrong and what is allowed.
+/// Thrown for bad definitions, meshes and files, before anything is built. `what()` is one line that says
+/// where, what is wrong and what is allowed.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

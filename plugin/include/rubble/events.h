@@ -13,8 +13,8 @@ namespace rubble {
 enum class BreakMode : std::uint8_t { Tension, Compression, Shear, Rotation, Stretch, Crushed };
 
 struct SpringBroken {
-  std::uint32_t body;        ///< DestructibleBody::id()
-  std::uint32_t spring;      ///< into Asset::springs, or Asset::springs.size() + anchor
+  std::uint32_t body;    ///< DestructibleBody::id()
+  std::uint32_t spring;  ///< into Asset::springs, or Asset::springs.size() + anchor
   BreakMode mode;
   float energy;              ///< released [J]
   Eigen::Vector3f position;  ///< [m]

@@ -5,8 +5,8 @@
 
 namespace rubble {
 
-/// Balances of one world of destructible bodies, since its start. Errors are closing errors divided by a scale that only
-/// grows during the run (plugin/README.md, "Ledgers"). SI units.
+/// Balances of one world of destructible bodies, since its start. Errors are closing errors divided by a
+/// scale that only grows during the run (plugin/README.md, "Ledgers"). SI units.
 struct Ledger {
   // Mass [kg]
   double massElements = 0;
@@ -18,20 +18,20 @@ struct Ledger {
   // Momentum of elements and debris
   Eigen::Vector3d linearMomentum = Eigen::Vector3d::Zero();   ///< [kg m/s]
   Eigen::Vector3d angularMomentum = Eigen::Vector3d::Zero();  ///< about the initial centre of mass [kg m^2/s]
-  double linearError = 0;   ///< dimensionless
-  double angularError = 0;  ///< dimensionless
+  double linearError = 0;                                     ///< dimensionless
+  double angularError = 0;                                    ///< dimensionless
   double momentumError() const { return linearError > angularError ? linearError : angularError; }
 
   // Energy [J]
-  double kinetic = 0;     ///< of elements
-  double elastic = 0;     ///< of springs, anchors and element contacts, from rest
-  double gravity = 0;     ///< work done by gravity so far
-  double dissipated = 0;  ///< by dashpots, friction, air, ground hits of debris
-  double fracture = 0;    ///< released by broken springs and crushed elements, not given to debris
-  double debris = 0;      ///< kinetic energy of debris
-  double exchanged = 0;   ///< work done by Bullet's bodies so far
-  double removed = 0;     ///< taken away by sleep, removal and dust
-  double energyError = 0; ///< dimensionless
+  double kinetic = 0;      ///< of elements
+  double elastic = 0;      ///< of springs, anchors and element contacts, from rest
+  double gravity = 0;      ///< work done by gravity so far
+  double dissipated = 0;   ///< by dashpots, friction, air, ground hits of debris
+  double fracture = 0;     ///< released by broken springs and crushed elements, not given to debris
+  double debris = 0;       ///< kinetic energy of debris
+  double exchanged = 0;    ///< work done by Bullet's bodies so far
+  double removed = 0;      ///< taken away by sleep, removal and dust
+  double energyError = 0;  ///< dimensionless
 };
 
 }  // namespace rubble

@@ -10,22 +10,26 @@ namespace rubble {
 /// All constants of a material. Presets: `material("concrete_soft")` and others, see materialNames().
 struct Material {
   std::string name = "concrete_soft";
-  double density = 2400;            ///< of the solid [kg/m^3], > 0
-  double youngsModulus = 30e6;      ///< E of the pore springs, k = E A / |d0| [Pa], > 0
+  double density = 2400;                ///< of the solid [kg/m^3], > 0
+  double youngsModulus = 30e6;          ///< E of the pore springs, k = E A / |d0| [Pa], > 0
   double tensileStrength = 0.474e6;     ///< f_t on a spring's traction [Pa], >= 0
   double compressiveStrength = 4.74e6;  ///< f_c [Pa], >= f_t
-  double breakingAngle = 0.032;     ///< relative rotation at which a spring breaks [rad], > 0
-  double stretchThreshold = 0.0158; ///< |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless
-  double springDamping = 0.03;      ///< damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5
-  double contactStiffness = 0.5;    ///< k_cn = contactStiffness E h [-], h the element spacing
-  double contactDamping = 0.3;      ///< damping ratio of the contact dashpots, normal and tangential, 0 to 1
-  double friction = 0.6;            ///< Coulomb mu of contacts; 0 is the paper
+  double breakingAngle = 0.032;         ///< relative rotation at which a spring breaks [rad], > 0
+  double stretchThreshold =
+      0.0158;  ///< |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless
+  double springDamping =
+      0.03;  ///< damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5
+  double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
+  double contactDamping = 0.3;    ///< damping ratio of the contact dashpots, normal and tangential, 0 to 1
+  double friction = 0.6;          ///< Coulomb mu of contacts; 0 is the paper
 
-  double bondWorkIndex = 13.5;      ///< Wi [kWh/t]; measured for the real material
-  double crushEfficiency = 1e-3;    ///< share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen
-  double sizeModulus = 0.7;         ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
-  double dustRadius = 1e-6;         ///< R_dust, radius of the largest dust grain [m]
-  double debrisSpeed = 0.3;         ///< relative speed of debris / speed of the element, the paper's user value, dimensionless
+  double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
+  double crushEfficiency =
+      1e-3;  ///< share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen
+  double sizeModulus = 0.7;  ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
+  double dustRadius = 1e-6;  ///< R_dust, radius of the largest dust grain [m]
+  double debrisSpeed =
+      0.3;  ///< relative speed of debris / speed of the element, the paper's user value, dimensionless
 };
 
 /// A preset by name. Throws rubble::Error naming the presets.
@@ -41,18 +45,20 @@ enum class DebrisSizes {
   Number  ///< the paper's eq. (5): sizes evenly spaced by number
 };
 enum class CellJoining {
-  Transitive,  ///< default: cells joined through any chain of unbroken springs at a vertex are drawn joined there
+  Transitive,  ///< default: cells joined through any chain of unbroken springs at a vertex are drawn joined
+               ///< there
   Direct       ///< the paper: only cells joined by a spring of their own
 };
 
-/// Which reading of the paper is simulated. The default values are `default`; `Model::paper()` follows the paper to the
-/// letter. Every difference is marked DEVIATION in the code and listed in plugin/README.md.
+/// Which reading of the paper is simulated. The default values are `default`; `Model::paper()` follows the
+/// paper to the letter. Every difference is marked DEVIATION in the code and listed in plugin/README.md.
 struct Model {
   BreakCriterion breakCriterion = BreakCriterion::MohrCoulomb;
-  bool rotationalStiffness = true;   ///< the springs' k_rot; off in the paper
-  bool contactBesideSpring = false;  ///< spring and contact act together on a joined pair, as printed in the paper
-  bool coulombFriction = true;       ///< friction limited by mu |F_n|; off in the paper
-  bool conserveDebris = true;        ///< debris keep momentum, spin and energy of their element
+  bool rotationalStiffness = true;  ///< the springs' k_rot; off in the paper
+  bool contactBesideSpring =
+      false;                    ///< spring and contact act together on a joined pair, as printed in the paper
+  bool coulombFriction = true;  ///< friction limited by mu |F_n|; off in the paper
+  bool conserveDebris = true;   ///< debris keep momentum, spin and energy of their element
   DebrisSizes debrisSizes = DebrisSizes::Mass;
   CellJoining cellJoining = CellJoining::Transitive;
 
