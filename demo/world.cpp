@@ -151,6 +151,7 @@ btRigidBody* World::addImpactor(const SceneBody& def) {
 
 void World::step() {
   m_substeps = 0;
+  m_simulated = 0;
   const int mostTicks = static_cast<int>(std::ceil(m_scene.bulletRate / m_scene.fps)) + 1;
   try {
     m_world->stepSimulation(static_cast<btScalar>(1 / m_scene.fps), mostTicks,
@@ -164,7 +165,8 @@ void World::step() {
 void World::finishTick(double seconds) {
   const int substeps = m_destruction->lastSubsteps();
   m_substeps += substeps;
-  m_substepLength = substeps > 0 ? seconds / substeps : 0;
+  m_simulated += seconds;
+  m_substepLength = m_substeps > 0 ? m_simulated / m_substeps : 0;
 }
 
 std::uint64_t World::hash() const {

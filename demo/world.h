@@ -42,7 +42,7 @@ class World {
   /// Adds a moving body, as the viewer does when it shoots a ball.
   btRigidBody* addImpactor(const SceneBody& def);
 
-  /// EDEM substeps of the last frame, summed over its ticks, and the length of one [s].
+  /// EDEM substeps of the last frame, summed over its ticks, and their mean length [s].
   int substeps() const { return m_substeps; }
   double substepLength() const { return m_substepLength; }
 
@@ -67,6 +67,7 @@ class World {
   std::vector<btRigidBody*> m_impactors;
   std::vector<btRigidBody*> m_statics;
   int m_substeps = 0;
+  double m_simulated = 0;  // in this frame [s]
   double m_substepLength = 0;
 };
 

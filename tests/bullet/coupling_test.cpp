@@ -1,0 +1,92 @@
+// Momentum and speed across the border of Bullet and the elements.
+#include <gtest/gtest.h>
+
+#include "bullet_world.h"
+
+namespace rubble {
+namespace {
+
+/// A ball of 10 kg at 10 m/s through the wall; returns its speed along z after 0.3 s.
+double speedBehindWall(double strength, int rate, int ticksPerCall, double* worstMomentum = nullptr) {
+  test::BulletWorld w;
+  Material m = material("concrete_soft");
+  m.tensileStrength = strength;
+  m.compressiveStrength = 10 * strength;
+  w.addWall(m);
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(0.25), btScalar(-0.4)});
+  ball->setLinearVelocity({0, 0, 10});
+  const btScalar tick = btScalar(1) / btScalar(rate);
+  btVector3 before = ball->getLinearVelocity();
+  double given = 0, scale = 0;
+  for (int call = 0; call < int(0.3 * rate) / ticksPerCall; ++call) {
+    w.world.stepSimulation(tick * btScalar(ticksPerCall), ticksPerCall, tick);
+    const btVector3 now = ball->getLinearVelocity();
+    given += 10 * double(before.z() - now.z());
+    scale += std::abs(10 * double(before.z() - now.z()));
+    before = now;
+    if (worstMomentum) *worstMomentum = std::max(*worstMomentum, w.destruction->ledger().linearError);
+  }
+  EXPECT_GT(scale, 0) << "the ball never touched the wall";
+  EXPECT_GT(given, 0);
+  return double(before.z());
+}
+
+TEST(Coupling, ExitSpeedDoesNotDependOnTheTick) {
+  // Without strength only inertia brakes the ball: the same at every rate, within 5 %.
+  const double at240 = speedBehindWall(1e3, 240, 1);
+  EXPECT_NEAR(speedBehindWall(1e3, 60, 1), at240, 0.05 * at240);
+  EXPECT_NEAR(speedBehindWall(1e3, 1000, 1), at240, 0.05 * at240);
+  EXPECT_LT(at240, 9.9);
+}
+
+TEST(Coupling, TicksPerCallChangeNothing) {
+  // Bullet clears forces only after all ticks of a call; ours act as impulses.
+  const double one = speedBehindWall(0.474e6, 240, 1);
+  EXPECT_NEAR(speedBehindWall(0.474e6, 240, 2), one, 0.02 * one + 0.05);
+  EXPECT_NEAR(speedBehindWall(0.474e6, 240, 4), one, 0.02 * one + 0.05);
+}
+
+TEST(Coupling, MomentumLedgerClosesInFloat) {
+  double worst = 0;
+  speedBehindWall(0.474e6, 240, 1, &worst);
+  EXPECT_LT(worst, 1e-4);
+}
+
+TEST(Coupling, BallGetsWhatTheElementsGive) {
+  // No ground contact, gravity or crushing: what the ball loses the elements have, to Bullet's float
+  // rounding.
+  DestructionDef definition;
+  definition.crushing = false;
+  test::BulletWorld w(definition);
+  w.world.setGravity({0, 0, 0});
+  DestructibleBodyDef def;
+  def.asset = test::smallWall();
+  def.material = material("concrete_soft");
+  def.anchored = false;
+  def.transform.setOrigin({0, 5, 0});
+  const DestructibleBody* wall = w.destruction->addBody(def);
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(5.25), btScalar(-0.4)});
+  ball->setLinearVelocity({0, 0, 10});
+  for (int tick = 0; tick < 48; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  const double lost = 10 * (10 - double(ball->getLinearVelocity().z()));
+  EXPECT_GT(lost, 1);
+  EXPECT_GT(w.destruction->counts().springsBroken, 0u);
+  EXPECT_NEAR(double(wall->linearMomentum().z()), lost, 1e-6 * 100);  // of the ball's 100 kg m/s
+}
+
+TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {
+  auto w = std::make_unique<test::BulletWorld>();
+  w->addWall(material("concrete_soft"));
+  for (int i = w->world.getNumConstraints() - 1; i >= 0; --i)
+    w->world.removeConstraint(w->world.getConstraint(i));
+  for (int i = w->world.getNumCollisionObjects() - 1; i >= 0; --i) {
+    btCollisionObject* object = w->world.getCollisionObjectArray()[i];
+    w->world.removeCollisionObject(object);
+    delete object;
+  }
+  EXPECT_TRUE(w->destruction->bodies().empty());
+  w->world.stepSimulation(btScalar(1) / 60);
+}
+
+}  // namespace
+}  // namespace rubble
