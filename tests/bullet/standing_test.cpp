@@ -24,7 +24,7 @@ TEST(Standing, AnchoredWallIsStillFromTheFirstTick) {
     DestructibleBody* wall = w.addWall(material("concrete_soft"));
     std::vector<ElementPose> last(wall->asset()->elementCount());
     wall->poses(last);
-    for (int frame = 0; frame < 180; ++frame) {
+    for (int frame = 0; frame < 150; ++frame) {
       w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
       EXPECT_LT(fastest(*wall, last, 1.0 / 60), 1e-3) << "frame " << frame;
     }
