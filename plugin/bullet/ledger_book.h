@@ -12,7 +12,7 @@ RUBBLE_ABI_BEGIN
 
 class LedgerBook {
  public:
-  /// A crushed element became debris and dust; `lost` is what of it vanished (debris switched off).
+  /// What of a crushed element became dust; the energy its debris were given; what left altogether.
   void addDust(const debris::Motion& dust) { m_dust += dust; }
   void addGiven(double energy) { m_given += energy; }
   void addRemoved(const debris::Motion& removed) { m_removed += removed; }

@@ -7,9 +7,9 @@
 namespace rubble {
 namespace {
 
-/// Measured: densities, moduli, strengths and Bond indices are handbook values of the named material
-/// (concrete Wi 13.5, brick 11.8, granite 15.7, glass 3.1 kWh/t). Softened for games: E, with strengths
-/// raised so that f_t / E grows as 1 / sqrt(E). Chosen for the eye: crushEfficiency and debrisSpeed.
+/// Assumed, typical of the named material: densities, Bond indices, and `concrete`'s modulus and strengths.
+/// The `_soft` ones are softened for games: their moduli, strengths and angles are chosen, not those of any
+/// real material. Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
 std::array<Material, 4> presets() {
   Material softConcrete;
   Material concrete;

@@ -339,7 +339,6 @@ int SolverOf<Real>::chooseSubsteps(double dt) {
 
 template <class Real>
 void SolverOf<Real>::closeTick(double dt) {
-  std::vector<std::uint8_t> changed;
   for (auto& body : m_bodies) {
     if (body->asleep) continue;
     const bool broke = std::any_of(m_report.broken.begin(), m_report.broken.end(),
