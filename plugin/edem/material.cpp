@@ -24,9 +24,10 @@ std::array<Material, 4> presets() {
   softBrick.name = "brick_soft";
   softBrick.density = 1900;
   softBrick.bondWorkIndex = 11.8;
-  softBrick.tensileStrength = 0.3e6;
-  softBrick.compressiveStrength = 3e6;
-  softBrick.stretchThreshold = 0.01;
+  softBrick.tensileStrength = 0.2e6;
+  softBrick.compressiveStrength = 2e6;
+  softBrick.breakingAngle = 0.014;
+  softBrick.stretchThreshold = 0.007;
   Material softGlass = softConcrete;
   softGlass.name = "glass_soft";
   softGlass.density = 2500;

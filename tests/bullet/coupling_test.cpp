@@ -41,14 +41,14 @@ TEST(Coupling, ExitSpeedDoesNotDependOnTheTick) {
 
 TEST(Coupling, TicksPerCallChangeNothing) {
   // Bullet clears forces only after all ticks of a call; ours act as impulses.
-  const double one = speedBehindWall(0.474e6, 240, 1);
-  EXPECT_NEAR(speedBehindWall(0.474e6, 240, 2), one, 0.02 * one + 0.05);
-  EXPECT_NEAR(speedBehindWall(0.474e6, 240, 4), one, 0.02 * one + 0.05);
+  const double one = speedBehindWall(0.33e6, 240, 1);
+  EXPECT_NEAR(speedBehindWall(0.33e6, 240, 2), one, 0.02 * one + 0.05);
+  EXPECT_NEAR(speedBehindWall(0.33e6, 240, 4), one, 0.02 * one + 0.05);
 }
 
 TEST(Coupling, MomentumLedgerClosesInFloat) {
   double worst = 0;
-  speedBehindWall(0.474e6, 240, 1, &worst);
+  speedBehindWall(0.33e6, 240, 1, &worst);
   EXPECT_LT(worst, 1e-4);
 }
 

@@ -10,13 +10,13 @@ namespace rubble {
 /// All constants of a material. Presets: `material("concrete_soft")` and others, see materialNames().
 struct Material {
   std::string name = "concrete_soft";
-  double density = 2400;                ///< of the solid [kg/m^3], > 0
-  double youngsModulus = 30e6;          ///< E of the pore springs, k = E A / |d0| [Pa], > 0
-  double tensileStrength = 0.474e6;     ///< f_t on a spring's traction [Pa], >= 0
-  double compressiveStrength = 4.74e6;  ///< f_c [Pa], >= f_t
-  double breakingAngle = 0.032;         ///< relative rotation at which a spring breaks [rad], > 0
+  double density = 2400;               ///< of the solid [kg/m^3], > 0
+  double youngsModulus = 30e6;         ///< E of the pore springs, k = E A / |d0| [Pa], > 0
+  double tensileStrength = 0.33e6;     ///< f_t on a spring's traction [Pa], >= 0
+  double compressiveStrength = 3.3e6;  ///< f_c [Pa], >= f_t
+  double breakingAngle = 0.022;        ///< relative rotation at which a spring breaks [rad], > 0
   double stretchThreshold =
-      0.0158;  ///< |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless
+      0.011;  ///< |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless
   double springDamping =
       0.03;  ///< damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5
   double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
@@ -25,7 +25,7 @@ struct Material {
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
   double crushEfficiency =
-      1e-3;  ///< share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen
+      2e-3;  ///< share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen
   double sizeModulus = 0.7;  ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
   double dustRadius = 1e-6;  ///< R_dust, radius of the largest dust grain [m]
   double debrisSpeed =
