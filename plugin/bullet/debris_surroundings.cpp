@@ -72,9 +72,10 @@ void DebrisSurroundings::addElements(std::uint32_t body, const Eigen::AlignedBox
   grown.min().array() -= radius;
   grown.max().array() += radius;
   m_solver.elementsIn(body, grown, m_near);
+  const edem::BodyView view = m_solver.view(body);
   for (const std::uint32_t i : m_near) {
     m_centres.push_back(m_solver.position(body, i));
-    m_balls.push_back({body, i, radius});
+    m_balls.push_back({body, i, radius, view.asleep ? 0 : 1 / view.mass[i]});
   }
   if (!m_near.empty()) m_largest = std::max(m_largest, radius);
 }
@@ -139,8 +140,8 @@ bool DebrisSurroundings::sweepElement(std::uint32_t ball, const Eigen::Vector3d&
   hit.surfaceVelocity =
       m_solver.velocity(m_balls[ball].body, m_balls[ball].element) +
       m_solver.spin(m_balls[ball].body, m_balls[ball].element).cross(hit.point - m_centres[ball]);
-  hit.inverseMass = 0;
-  hit.surface = debris::kFixedSurface;
+  hit.inverseMass = m_balls[ball].inverseMass;  // the normal goes through its centre
+  hit.surface = hit.inverseMass > 0 ? std::uint32_t(m_movable.size()) + ball : debris::kFixedSurface;
   return true;
 }
 
@@ -161,6 +162,23 @@ bool DebrisSurroundings::sweep(const Eigen::Vector3d& from, const Eigen::Vector3
     m_grid.visitBox(low, high, consider);
   }
   return found;
+}
+
+void DebrisSurroundings::push(std::span<const debris::SurfaceImpulse> impulses) {
+  for (std::uint32_t s = 0; s < impulses.size(); ++s) {
+    if (impulses[s].hits == 0) continue;
+    if (s >= m_movable.size()) {
+      const ElementBall& ball = m_balls[s - m_movable.size()];
+      m_solver.push(ball.body, ball.element, impulses[s].linear,
+                    impulses[s].angularAbout(m_centres[s - m_movable.size()]));
+    } else if (m_present[s]) {
+      btRigidBody& rigid = *m_movable[s];
+      rigid.activate();
+      rigid.applyCentralImpulse(bullet::toBullet(impulses[s].linear));
+      rigid.applyTorqueImpulse(
+          bullet::toBullet(impulses[s].angularAbout(bullet::toEigen(rigid.getCenterOfMassPosition()))));
+    }
+  }
 }
 
 RUBBLE_ABI_END

@@ -3,10 +3,12 @@
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
+#include <span>
 #include <vector>
 
 #include "bullet/rigid_proxies.h"
 #include "debris/debris_collider.h"
+#include "debris/particle.h"
 #include "edem/grid.h"
 #include "edem/solver.h"
 #include "rubble/destruction.h"
@@ -16,18 +18,16 @@ RUBBLE_ABI_BEGIN
 
 class DebrisSurroundings : public debris::DebrisCollider {
  public:
-  DebrisSurroundings(btDiscreteDynamicsWorld& world, const edem::Solver& solver, RigidProxies& proxies)
+  DebrisSurroundings(btDiscreteDynamicsWorld& world, edem::Solver& solver, RigidProxies& proxies)
       : m_world(world), m_solver(solver), m_proxies(proxies) {}
 
   void begin(const Eigen::AlignedBox3d& swept) override;
-  std::uint32_t surfaceCount() const override { return std::uint32_t(m_movable.size()); }
+  std::uint32_t surfaceCount() const override { return std::uint32_t(m_movable.size() + m_balls.size()); }
   bool sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
              debris::DebrisHit& hit) override;
 
-  /// Body of a movable surface; null when it was not near in the last step (it may be gone).
-  btRigidBody* movable(std::uint32_t surface) const {
-    return m_present[surface] ? m_movable[surface] : nullptr;
-  }
+  /// Gives Bullet's bodies and the elements what debris did to them in the last step, by surface.
+  void push(std::span<const debris::SurfaceImpulse> impulses);
 
  private:
   struct Object {
@@ -38,6 +38,7 @@ class DebrisSurroundings : public debris::DebrisCollider {
   struct ElementBall {
     std::uint32_t body, element;
     double radius;
+    double inverseMass;  // 0 while the body sleeps: dust must not wake a wall
   };
 
   void addObject(btCollisionObject& object);
@@ -48,10 +49,11 @@ class DebrisSurroundings : public debris::DebrisCollider {
                     debris::DebrisHit& hit) const;
 
   btDiscreteDynamicsWorld& m_world;
-  const edem::Solver& m_solver;
+  edem::Solver& m_solver;
   RigidProxies& m_proxies;
   std::vector<Object> m_objects;
-  std::vector<btRigidBody*> m_movable;  // by surface id; compared, used only while present
+  // Surface ids: first every rigid body ever met, then the element balls of this step.
+  std::vector<btRigidBody*> m_movable;  // compared, used only while present
   std::vector<std::uint8_t> m_present;
   std::vector<Eigen::Vector3d> m_centres;  // of the element balls near
   std::vector<ElementBall> m_balls;

@@ -3,50 +3,127 @@
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
+#include <algorithm>
+#include <limits>
 
 #include "bullet/body_impl.h"
+#include "bullet/convert.h"
+#include "bullet/world_tick.h"
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
 namespace {
 
-/// Stays small: Bullet makes algorithms in a pool of fixed pieces and does not check (192 bytes by default).
+/// A point where an element and the other object are near.
+struct Near {
+  Eigen::Vector3d point, normal;  // on the other object's surface, out of it
+  double distance;
+};
+
+/// Fewest points that show where a contact is: the deepest, then always the one furthest from those chosen.
+/// A manifold of Bullet's holds four.
+void keepFour(std::vector<Near>& points) {
+  constexpr std::size_t kPoints = MANIFOLD_CACHE_SIZE;
+  if (points.size() <= kPoints) return;
+  const auto deeper = [](const Near& a, const Near& b) { return a.distance < b.distance; };
+  std::iter_swap(points.begin(), std::min_element(points.begin(), points.end(), deeper));
+  for (std::size_t n = 1; n < kPoints; ++n) {
+    const auto apart = [&](const Near& p) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < n; ++k) least = std::min(least, (p.point - points[k].point).squaredNorm());
+      return least;
+    };
+    const auto nearer = [&](const Near& a, const Near& b) { return apart(a) < apart(b); };
+    const auto rest = points.begin() + std::ptrdiff_t(n);
+    std::iter_swap(rest, std::max_element(rest, points.end(), nearer));
+  }
+  points.resize(kPoints);
+}
+
+/// Points of the elements of `own` within `margin` of `other` [m].
+std::vector<Near> nearPoints(const DestructibleBody& own, const btCollisionObject& other, double margin) {
+  std::vector<Near> points;
+  Destruction::Impl* world = own.impl().world;
+  if (!world) return points;
+  const edem::RigidProxy proxy = world->proxyMaker.make(other);
+  const edem::Solver& solver = *world->solver;
+  const double radius = solver.radius(own.id());
+  Eigen::AlignedBox3d box = proxy.bounds();
+  box.min().array() -= radius + margin;
+  box.max().array() += radius + margin;
+  std::vector<std::uint32_t> near;
+  solver.elementsIn(own.id(), box, near);
+  const Eigen::Quaterniond back = proxy.orientation.conjugate();
+  for (const std::uint32_t i : near) {
+    const Eigen::Vector3d at = solver.position(own.id(), i);
+    for (const edem::Collider& part : proxy.parts) {
+      const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position));
+      if (s.distance - radius > margin) continue;
+      const Eigen::Vector3d normal = proxy.orientation * s.normal;
+      points.push_back({at - s.distance * normal, normal, s.distance - radius});
+    }
+  }
+  keepFour(points);
+  return points;
+}
+
+/// Notes who is near for the substeps, and writes manifold points for the application; Bullet's solver leaves
+/// these alone (DestructibleBody's contactProcessingThreshold). Two destructibles touch by their elements and
+/// have no manifold points. Stays small: Bullet makes algorithms in a pool of fixed pieces and does not check
+/// (192 bytes by default).
 class ElementAlgorithm : public btCollisionAlgorithm {
  public:
-  ElementAlgorithm(const btCollisionAlgorithmConstructionInfo& info, bool isQuery)
-      : btCollisionAlgorithm(info), m_isQuery(isQuery) {}
+  ElementAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* first,
+                   const btCollisionObjectWrapper* second, bool isQuery)
+      : btCollisionAlgorithm(info), m_isQuery(isQuery) {
+    m_manifold = m_dispatcher->getNewManifold(first->getCollisionObject(), second->getCollisionObject());
+  }
+  ~ElementAlgorithm() override { m_dispatcher->releaseManifold(m_manifold); }
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                        const btDispatcherInfo&, btManifoldResult*) override {
-    if (m_isQuery) return;
-    note(first->getCollisionObject(), second->getCollisionObject());
-    note(second->getCollisionObject(), first->getCollisionObject());
+                        const btDispatcherInfo&, btManifoldResult* result) override {
+    const btCollisionObject *a = first->getCollisionObject(), *b = second->getCollisionObject();
+    const DestructibleBody *ownA = DestructibleBody::upcast(a), *ownB = DestructibleBody::upcast(b);
+    m_manifold->clearManifold();  // elements move within their body's frame: no point outlives a tick
+    if (!ownA == !ownB) return;
+    if (!m_isQuery) note(ownA ? *ownA : *ownB, ownA ? *b : *a);
+    result->setPersistentManifold(m_manifold);
+    const double margin = m_isQuery ? static_cast<double>(result->m_closestPointDistanceThreshold)
+                                    : static_cast<double>(m_manifold->getContactBreakingThreshold());
+    for (const Near& p : nearPoints(ownA ? *ownA : *ownB, ownA ? *b : *a, margin)) {
+      // Bullet wants the point on the second object, and the normal from it to the first.
+      const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
+      result->addContactPoint(bullet::toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
+                              bullet::toBullet(ownB ? onElement : p.point),
+                              static_cast<btScalar>(p.distance));
+    }
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
                                  btManifoldResult*) override {
     return 1;
   }
-  void getAllContactManifolds(btManifoldArray&) override {}
+  void getAllContactManifolds(btManifoldArray& manifolds) override { manifolds.push_back(m_manifold); }
 
  private:
-  static void note(const btCollisionObject* own, const btCollisionObject* other) {
-    const DestructibleBody* body = DestructibleBody::upcast(own);
-    if (!body || DestructibleBody::upcast(other)) return;  // two destructibles touch by their elements
-    if (!other->hasContactResponse()) return;
-    const_cast<DestructibleBody*>(body)->impl().near.push_back(const_cast<btCollisionObject*>(other));
+  static void note(const DestructibleBody& own, const btCollisionObject& other) {
+    if (!other.hasContactResponse()) return;
+    const_cast<DestructibleBody&>(own).impl().near.push_back(const_cast<btCollisionObject*>(&other));
   }
 
+  btPersistentManifold* m_manifold;
   bool m_isQuery;
 };
 
 }  // namespace
 
 btCollisionAlgorithm* ElementAlgorithms::CreateFunc::CreateCollisionAlgorithm(
-    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper*,
-    const btCollisionObjectWrapper*) {
+    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* first,
+    const btCollisionObjectWrapper* second) {
   static_assert(sizeof(ElementAlgorithm) <= 64);
   void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(ElementAlgorithm));
-  return new (memory) ElementAlgorithm(info, isQuery);
+  return new (memory) ElementAlgorithm(info, first, second, isQuery);
 }
 
 ElementAlgorithms::ElementAlgorithms(btCollisionDispatcher& dispatcher) : m_dispatcher(dispatcher) {

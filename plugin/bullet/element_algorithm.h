@@ -1,5 +1,5 @@
-// Bullet's narrowphase for pairs with a destructible body: it notes who is near; the substeps find the
-// contacts.
+// Bullet's narrowphase for pairs with a destructible body: it notes who is near for the substeps, and shows
+// applications and contactTest where bodies touch.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>

@@ -1,6 +1,10 @@
 #include "bullet/element_shape.h"
 
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,30 +35,65 @@ void ElementShape::getAabb(const btTransform&, btVector3& low, btVector3& high) 
   high = m_high;
 }
 
+// Bullet's generic concave path for rays and sweeps: each element answers as a sphere.
 void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVector3&,
                                        const btVector3&) const {
   if (m_hidden) return;
-  // Bullet's generic concave path for rays: each element answers as a sphere.
-  auto* ray = dynamic_cast<btTriangleRaycastCallback*>(callback);
-  if (!ray) return;
-  const Eigen::Vector3d from = bullet::toEigen(ray->m_from), along = bullet::toEigen(ray->m_to) - from;
+  if (auto* ray = dynamic_cast<btTriangleRaycastCallback*>(callback)) {
+    answer(*ray);
+  } else if (auto* sweep = dynamic_cast<btTriangleConvexcastCallback*>(callback)) {
+    answer(*sweep);
+  }
+}
+
+std::vector<std::uint32_t> ElementShape::elementsAlong(const btVector3& low, const btVector3& high) const {
+  Eigen::AlignedBox3d box(bullet::toEigen(low), bullet::toEigen(high));
+  box.min().array() -= m_solver.radius(m_body);
+  box.max().array() += m_solver.radius(m_body);
+  std::vector<std::uint32_t> near;
+  m_solver.elementsIn(m_body, box, near);
+  return near;
+}
+
+void ElementShape::answer(btTriangleRaycastCallback& ray) const {
+  const Eigen::Vector3d from = bullet::toEigen(ray.m_from), along = bullet::toEigen(ray.m_to) - from;
   const double length2 = along.squaredNorm(), radius = m_solver.radius(m_body);
   if (!(length2 > 0)) return;
-  std::vector<std::uint32_t> near;
-  Eigen::AlignedBox3d box(from.cwiseMin(from + along), from.cwiseMax(from + along));
-  box.min().array() -= radius;
-  box.max().array() += radius;
-  m_solver.elementsIn(m_body, box, near);
-  for (const std::uint32_t i : near) {
+  btVector3 low = ray.m_from, high = ray.m_from;
+  low.setMin(ray.m_to);
+  high.setMax(ray.m_to);
+  for (const std::uint32_t i : elementsAlong(low, high)) {
     const Eigen::Vector3d to = m_solver.position(m_body, i) - from;
     const double middle = to.dot(along) / length2;
     const double miss2 = (to - middle * along).squaredNorm();
     if (miss2 > radius * radius) continue;
     const double t = middle - std::sqrt((radius * radius - miss2) / length2);
-    if (t < 0 || t > static_cast<double>(ray->m_hitFraction)) continue;
+    if (t < 0 || t > static_cast<double>(ray.m_hitFraction)) continue;
     const Eigen::Vector3d normal = (t * along - to).normalized();
-    ray->m_hitFraction =
-        ray->reportHit(bullet::toBullet(normal), static_cast<btScalar>(t), 0, static_cast<int>(i));
+    ray.m_hitFraction =
+        ray.reportHit(bullet::toBullet(normal), static_cast<btScalar>(t), 0, static_cast<int>(i));
+  }
+}
+
+void ElementShape::answer(btTriangleConvexcastCallback& sweep) const {
+  btVector3 low, high, endLow, endHigh;
+  sweep.m_convexShape->getAabb(sweep.m_convexShapeFrom, low, high);
+  sweep.m_convexShape->getAabb(sweep.m_convexShapeTo, endLow, endHigh);
+  low.setMin(endLow);
+  high.setMax(endHigh);
+  const btSphereShape ball(static_cast<btScalar>(m_solver.radius(m_body)));
+  for (const std::uint32_t i : elementsAlong(low, high)) {
+    const btTransform at(btQuaternion::getIdentity(), bullet::toBullet(m_solver.position(m_body, i)));
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btContinuousConvexCollision cast(sweep.m_convexShape, &ball, &simplex, &depth);
+    btConvexCast::CastResult result;
+    result.m_fraction = sweep.m_hitFraction;
+    result.m_allowedPenetration = sweep.m_allowedPenetration;
+    if (!cast.calcTimeOfImpact(sweep.m_convexShapeFrom, sweep.m_convexShapeTo, at, at, result)) continue;
+    if (result.m_normal.length2() < btScalar(1e-4) || !(result.m_fraction < sweep.m_hitFraction)) continue;
+    sweep.m_hitFraction = sweep.reportHit(result.m_normal.normalized(), result.m_hitPoint, result.m_fraction,
+                                          0, static_cast<int>(i));
   }
 }
 

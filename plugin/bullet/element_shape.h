@@ -4,8 +4,13 @@
 
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 
+#include <vector>
+
 #include "edem/solver.h"
 #include "rubble/abi.h"
+
+class btTriangleConvexcastCallback;
+class btTriangleRaycastCallback;
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
@@ -31,6 +36,11 @@ class ElementShape : public btConcaveShape {
   const char* getName() const override { return "RubbleElements"; }
 
  private:
+  /// Living elements whose spheres may reach into the box.
+  std::vector<std::uint32_t> elementsAlong(const btVector3& low, const btVector3& high) const;
+  void answer(btTriangleRaycastCallback& ray) const;
+  void answer(btTriangleConvexcastCallback& sweep) const;
+
   const edem::Solver& m_solver;
   std::uint32_t m_body;
   bool m_hidden = false;

@@ -165,6 +165,8 @@ void Destruction::Impl::advance(double dt) {
   gatherProxies();
   std::vector<edem::RigidProxy> start = proxies;
   solver->tick(dt, toEigen(world.getGravity()), proxies);
+  times.neighbours += solver->report().listing;
+  times.edem -= solver->report().listing;
   failure = solver->failure();
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
@@ -188,7 +190,8 @@ void Destruction::Impl::finish(double dt) {
   }
   if (advanced) {
     lateImpulses();
-    fixPositions(dt);
+    fixPositions();
+    writeAppliedImpulses();
     const Stopwatch watch(times.fracture);
     bookEvents();
     breakElements();
@@ -214,7 +217,7 @@ void Destruction::Impl::lateImpulses() {
 
 /// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
 /// had it.
-void Destruction::Impl::fixPositions(double) {
+void Destruction::Impl::fixPositions() {
   double radius = std::numeric_limits<double>::infinity();
   for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
   for (std::size_t p = 0; p < proxies.size(); ++p) {
@@ -228,6 +231,28 @@ void Destruction::Impl::fixPositions(double) {
     at.setOrigin(at.getOrigin() + static_cast<btScalar>(blend) * shift);
     t.rigid->setWorldTransform(at);
     t.rigid->setInterpolationWorldTransform(at);
+  }
+}
+
+/// For applications that read manifolds: a body's impulse, in equal parts on the points of its manifold.
+void Destruction::Impl::writeAppliedImpulses() {
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    const bool second = DestructibleBody::upcast(manifold.getBody1()) != nullptr;
+    const DestructibleBody* own =
+        DestructibleBody::upcast(second ? manifold.getBody1() : manifold.getBody0());
+    if (!own) continue;
+    const btCollisionObject* other = second ? manifold.getBody0() : manifold.getBody1();
+    for (std::size_t p = 0; p < proxies.size(); ++p) {
+      const edem::RigidProxy& proxy = proxies[p];
+      if (touched[p].object != other ||
+          std::count(proxy.touched.begin(), proxy.touched.end(), own->id()) == 0)
+        continue;
+      const double share = 1.0 / double(proxy.touched.size()) / std::max(1, manifold.getNumContacts());
+      for (int c = 0; c < manifold.getNumContacts(); ++c)
+        manifold.getContactPoint(c).m_appliedImpulse = static_cast<btScalar>(share * proxy.impulse.norm());
+    }
   }
 }
 
@@ -334,15 +359,7 @@ void Destruction::Impl::stepDebris(double dt) {
   wakeBoxes.clear();
   if (debrisSystem->movingCount() > 0) {
     debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
-    const auto impulses = debrisSystem->surfaceImpulses();
-    for (std::uint32_t s = 0; s < impulses.size(); ++s) {
-      btRigidBody* rigid = impulses[s].hits > 0 ? surroundings->movable(s) : nullptr;
-      if (!rigid) continue;
-      rigid->activate();
-      rigid->applyCentralImpulse(toBullet(impulses[s].linear));
-      rigid->applyTorqueImpulse(
-          toBullet(impulses[s].angularAbout(toEigen(rigid->getCenterOfMassPosition()))));
-    }
+    surroundings->push(debrisSystem->surfaceImpulses());
   }
   const debris::Exchange exchange = debrisSystem->takeExchange();
   debrisRemoved += std::uint32_t(exchange.removedCount);

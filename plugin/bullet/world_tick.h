@@ -64,7 +64,8 @@ struct Destruction::Impl {
  private:
   void gatherProxies();
   void lateImpulses();
-  void fixPositions(double dt);
+  void fixPositions();
+  void writeAppliedImpulses();
   void bookEvents();
   void breakElements();
   void stepDebris(double dt);

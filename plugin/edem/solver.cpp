@@ -1,6 +1,7 @@
 #include "edem/solver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -114,6 +115,24 @@ class SolverOf final : public Solver {
   void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
                   std::vector<std::uint32_t>& out) const override;
 
+  void push(std::uint32_t id, std::size_t i, const Eigen::Vector3d& linear,
+            const Eigen::Vector3d& angular) override {
+    Body<Real>& body = *m_bodies[placeOf(id)];
+    const Vec3<Real> v0 = body.velocity[i], w0 = body.spin[i];
+    body.velocity[i] += body.inverseMass[i] * linear.cast<Real>();
+    body.spin[i] += body.inverseInertia[i] * angular.cast<Real>();
+    const Eigen::Vector3d gained = body.mass[i] * (body.velocity[i] - v0).template cast<double>();
+    const Eigen::Vector3d turned = body.inertia[i] * (body.spin[i] - w0).template cast<double>();
+    const Eigen::Vector3d arm = body.worldPosition(i) - m_books.centre;
+    const double work = 0.5 * (gained.dot((v0 + body.velocity[i]).template cast<double>()) +
+                               turned.dot((w0 + body.spin[i]).template cast<double>()));
+    m_books.bullet.push(1, gained, arm, turned);
+    m_books.bullet.work.add(work, 0);
+    m_books.linear += gained;
+    m_books.angular += arm.cross(gained) + turned;
+    m_books.kinetic += work;
+  }
+
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_bodies[placeOf(id)];
     if (body.asleep == asleep) return;
@@ -140,6 +159,11 @@ class SolverOf final : public Solver {
   }
 
  private:
+  struct Touching {
+    std::uint32_t first, second;  // bodies by place
+    PairEntry entry;
+  };
+
   std::size_t placeOf(std::uint32_t id) const {
     for (std::size_t b = 0; b < m_bodies.size(); ++b)
       if (m_bodies[b]->id == id) return b;
@@ -185,6 +209,8 @@ class SolverOf final : public Solver {
   void bookNew(const Body<Real>& body);
   void bookLeaving(const Body<Real>& body);
   void list();
+  void gatherRates(double step);
+  void gatherTouching();
   int chooseSubsteps(double dt);
   void substep(double kick, double step, const Eigen::Vector3d& gravity);
   void closeTick(double dt);
@@ -195,8 +221,9 @@ class SolverOf final : public Solver {
   PairLists<Real> m_lists;
   RigidContacts<Real> m_rigid;
   bool m_listsStale = true;
-  double m_lastStep = 0;  // of the positions; 0 before the first
-  std::vector<ElementRates> m_rates;
+  double m_lastStep = 0;                           // of the positions; 0 before the first
+  std::vector<std::vector<ElementRates>> m_rates;  // by body
+  std::vector<Touching> m_touching;
   TickReport m_report;
   Books m_books;
   std::string m_failure;
@@ -209,6 +236,8 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   m_report.broken.clear();
   m_report.crushed.clear();
   m_report.substeps = 0;
+  m_report.listing = 0;
+  if (!std::isfinite(dt)) m_failure = "the time step is not finite";
   if (!m_failure.empty() || !(dt > 0)) return;
   m_rigid.beginTick(proxies);
   for (auto& body : m_bodies)
@@ -281,31 +310,38 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
 
 template <class Real>
 void SolverOf<Real>::list() {
+  const auto begin = std::chrono::steady_clock::now();
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& body : m_bodies) radius = std::min(radius, double(body->radius));
   m_lists.build(m_bodies, m_bodies.empty() ? 0 : kSkinRadii * radius);
   m_rigid.build(m_bodies, m_lists);
   m_listsStale = false;
+  m_report.listing +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Rates of each element in its springs and at the rigid bodies near it.
 template <class Real>
-int SolverOf<Real>::chooseSubsteps(double dt) {
-  double step = dt, speed = m_rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
-  std::vector<std::vector<ElementRates>> rates(m_bodies.size());
+void SolverOf<Real>::gatherRates(double step) {
+  m_rates.resize(m_bodies.size());
   for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
     const Body<Real>& body = *m_bodies[b];
-    rates[b].resize(body.elementCount());
+    m_rates[b].assign(body.elementCount(), {});
     if (body.asleep) continue;
-    springRates(body, std::span(rates[b]));
-    m_rigid.addRates(body, b, m_lastStep > 0 ? m_lastStep : step, rates[b]);
-    speed = std::max(speed, speedOf(body));
-    radius = std::min(radius, double(body.radius));
+    springRates(body, std::span(m_rates[b]));
+    m_rigid.addRates(body, b, step, m_rates[b]);
   }
-  struct Touching {
-    std::uint32_t a, b;
-    PairEntry entry;
+}
+
+/// Pairs that touch or nearly do, and their contacts' part in the rates of both elements.
+template <class Real>
+void SolverOf<Real>::gatherTouching() {
+  m_touching.clear();
+  const auto add = [this](std::uint32_t place, std::uint32_t i) {
+    const Body<Real>& body = *m_bodies[place];
+    m_rates[place][i].stiffness += body.contactStiffness / body.mass[i];
+    m_rates[place][i].damping += double(body.contact.damping) / body.mass[i];
   };
-  std::vector<Touching> touching;
   for (const PairList& l : m_lists.lists()) {
     const Body<Real>&a = *m_bodies[l.first], &b = *m_bodies[l.second];
     const Vec3<Real> offset = (b.origin - a.origin).template cast<Real>();
@@ -313,25 +349,30 @@ int SolverOf<Real>::chooseSubsteps(double dt) {
     for (const PairEntry& e : l.entries) {
       if (!a.alive[e.first] || !b.alive[e.second]) continue;
       if ((b.position[e.second] - a.position[e.first] + offset).squaredNorm() > near * near) continue;
-      touching.push_back({l.first, l.second, e});
-      const auto add = [&](const Body<Real>& body, std::uint32_t place, std::uint32_t i) {
-        rates[place][i].stiffness += body.contactStiffness / body.mass[i];
-        rates[place][i].damping += double(body.contact.damping) / body.mass[i];
-      };
-      add(a, l.first, e.first);
-      add(b, l.second, e.second);
+      m_touching.push_back({l.first, l.second, e});
+      add(l.first, e.first);
+      add(l.second, e.second);
     }
   }
+}
+
+template <class Real>
+int SolverOf<Real>::chooseSubsteps(double dt) {
+  gatherRates(m_lastStep > 0 ? m_lastStep : dt);
+  gatherTouching();
   RateBound bound;
+  double speed = m_rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
   for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
-    if (m_bodies[b]->asleep) continue;
-    const RateBound own = springBound(*m_bodies[b], std::span<const ElementRates>(rates[b]));
-    bound.frequency2 = std::max(bound.frequency2, own.frequency2);
-    bound.damping = std::max(bound.damping, own.damping);
-    for (const ElementRates& r : rates[b]) bound.add(r, {});
+    const Body<Real>& body = *m_bodies[b];
+    if (body.asleep) continue;
+    bound.add(springBound(body, std::span<const ElementRates>(m_rates[b])));
+    for (const ElementRates& r : m_rates[b]) bound.add(r, {});
+    speed = std::max(speed, speedOf(body));
+    radius = std::min(radius, double(body.radius));
   }
-  for (const Touching& t : touching) bound.add(rates[t.a][t.entry.first], rates[t.b][t.entry.second]);
-  step = std::min(step, m_def.substepSafety * bound.stableStep());
+  for (const Touching& t : m_touching)
+    bound.add(m_rates[t.first][t.entry.first], m_rates[t.second][t.entry.second]);
+  double step = std::min(dt, m_def.substepSafety * bound.stableStep());
   if (speed > 0 && std::isfinite(radius)) step = std::min(step, kTravelShare * radius / speed);
   const double limit = std::max(1.0, std::ceil(dt * 60 * m_def.maxSubstepsPerFrame));
   return int(std::clamp(std::ceil(dt / step * (1 - 1e-9)), 1.0, limit));
@@ -416,6 +457,12 @@ void SolverOf<Real>::elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box
 }  // namespace
 
 std::unique_ptr<Solver> Solver::make(Precision precision, const SolverDef& def) {
+  if (!(def.substepSafety > 0 && def.substepSafety <= 1))
+    throw Error("substepSafety: is " + std::to_string(def.substepSafety) +
+                ", must be more than 0 and at most 1");
+  if (def.maxSubstepsPerFrame < 1)
+    throw Error("maxSubstepsPerFrame: is " + std::to_string(def.maxSubstepsPerFrame) +
+                ", must be at least 1");
   if (precision == Precision::Double) return std::make_unique<SolverOf<double>>(def);
   return std::make_unique<SolverOf<float>>(def);
 }

@@ -34,6 +34,7 @@ struct BodyView {
 
 class Solver {
  public:
+  /// Throws rubble::Error naming a bad value of the definition.
   static std::unique_ptr<Solver> make(Precision precision, const SolverDef& def);
   virtual ~Solver() = default;
 
@@ -70,6 +71,10 @@ class Solver {
   virtual void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
                           std::vector<std::uint32_t>& out) const = 0;
 
+  /// Gives an element of a body that is awake an impulse and one of rotation about its centre, between ticks
+  /// [N s], [N m s]. Booked as the host's.
+  virtual void push(std::uint32_t id, std::size_t element, const Eigen::Vector3d& linear,
+                    const Eigen::Vector3d& angular) = 0;
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;
   /// FNV-1a over the bits of the state of all bodies.

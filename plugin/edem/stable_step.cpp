@@ -30,6 +30,11 @@ void RateBound::add(const ElementRates& a, const ElementRates& b) {
   damping = std::max(damping, a.damping + b.damping);
 }
 
+void RateBound::add(const RateBound& other) {
+  frequency2 = std::max(frequency2, other.frequency2);
+  damping = std::max(damping, other.damping);
+}
+
 double RateBound::stableStep() const {
   if (frequency2 <= 0) return std::numeric_limits<double>::infinity();
   const double omega = std::sqrt(frequency2);

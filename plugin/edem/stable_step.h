@@ -24,6 +24,7 @@ struct RateBound {
   double frequency2 = 0;  ///< omega^2 <= [1/s^2]
   double damping = 0;     ///< gamma <= [1/s]
   void add(const ElementRates& a, const ElementRates& b);
+  void add(const RateBound& other);
   /// Largest stable step of symplectic Euler with lagged damping: h = 2 / omega (sqrt(1 + xi^2) - xi), xi =
   /// gamma / (2 omega).
   double stableStep() const;

@@ -32,6 +32,7 @@ struct CrushedElement {
 struct TickReport {
   int substeps = 0;
   double substep = 0;  ///< h [s]
+  double listing = 0;  ///< wall time spent on candidate lists [ms]
   std::vector<BrokenSpring> broken;
   std::vector<CrushedElement> crushed;
 };

@@ -74,6 +74,40 @@ TEST(Coupling, BallGetsWhatTheElementsGive) {
   EXPECT_NEAR(double(wall->linearMomentum().z()), lost, 1e-6 * 100);  // of the ball's 100 kg m/s
 }
 
+TEST(Coupling, DebrisPushTheElementsTheyHit) {
+  // Springs break by crushing alone: a light ball crushes some of the first wall, and ball and elements stay
+  // behind, so that only debris reach the second.
+  test::BulletWorld w;
+  w.world.setGravity({0, 0, 0});
+  DestructibleBodyDef def;
+  def.asset = test::smallWall();
+  def.material = material("concrete_soft");
+  def.material.crushEfficiency = 1e-3;
+  def.material.tensileStrength = def.material.compressiveStrength = 1e12;
+  def.material.breakingAngle = 3;
+  def.anchored = false;
+  def.transform.setOrigin({0, 5, 0});
+  const DestructibleBody* struck = w.destruction->addBody(def);
+  def.transform.setOrigin({0, 5, btScalar(0.4)});
+  const DestructibleBody* behind = w.destruction->addBody(def);
+  btRigidBody* ball = w.add(1, w.ballShape, {0, btScalar(5.25), btScalar(-0.2)});
+  ball->setLinearVelocity({0, 0, 20});
+  double worst = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+    worst = std::max(worst, w.destruction->ledger().momentumError());
+    for (const ContactImpulse& c : w.destruction->takeEvents().contacts) EXPECT_EQ(c.body, struck->id());
+  }
+  EXPECT_GT(w.destruction->counts().debrisSpawned, 0u);
+  std::vector<ElementPose> poses(struck->asset()->elementCount());
+  struck->poses(poses);
+  for (const ElementPose& pose : poses) EXPECT_TRUE(pose.alive <= 0 || pose.position.z() < 0.3f);
+  EXPECT_LT(double(ball->getWorldTransform().getOrigin().z()), 0.3);
+  EXPECT_GT(double(behind->linearMomentum().z()), 0);
+  EXPECT_LT(worst, 1e-5);
+  EXPECT_LT(w.destruction->ledger().energyError, 0.02);
+}
+
 TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {
   auto w = std::make_unique<test::BulletWorld>();
   w->addWall(material("concrete_soft"));

@@ -44,16 +44,5 @@ TEST(Standing, SleepingWallWakesWhenABallComes) {
   EXPECT_LT(w.destruction->ledger().energyError, 0.02);
 }
 
-TEST(Standing, RayHitsAnElement) {
-  test::BulletWorld w;
-  const DestructibleBody* wall = w.addWall(material("concrete_soft"));
-  const btVector3 from(0, btScalar(0.25), 2), to(0, btScalar(0.25), -2);
-  btCollisionWorld::ClosestRayResultCallback hit(from, to);
-  w.world.rayTest(from, to, hit);
-  ASSERT_TRUE(hit.hasHit());
-  EXPECT_EQ(hit.m_collisionObject, wall);
-  EXPECT_NEAR(double(hit.m_hitPointWorld.z()), 0.03, 0.03);  // within the wall's front half
-}
-
 }  // namespace
 }  // namespace rubble
