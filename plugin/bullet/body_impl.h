@@ -23,6 +23,7 @@ struct DestructibleBody::Impl {
   std::unique_ptr<debris::Spawner> spawner;
   std::vector<double> bondConstants;     ///< C_B of each element [J m^0.5]
   std::vector<std::uint8_t> wasRoot;     ///< elements that were the lowest of a fragment
+  double calmTime = 0;                   ///< since an element was last faster than calm [s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };
 

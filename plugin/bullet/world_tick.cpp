@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
@@ -16,9 +17,16 @@ using bullet::toEigen;
 
 /// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
 constexpr double kQuietSpeed = 0.01;
+/// Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. A body that may
+/// sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
+/// is damped at this rate [1/s].
+constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
 /// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm;
 /// above, fast bodies end where the substeps brought them (plugin/README.md).
 constexpr double kFixBegin = 0.05, kFixFull = 0.10;
+/// Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
+/// keeps jumping from tick to tick.
+constexpr btScalar kTrust = btScalar(0.25);
 /// Resting debris within this many radii of a break wake up.
 constexpr double kWakeRadii = 3;
 
@@ -150,7 +158,20 @@ void Destruction::Impl::gatherProxies() {
       if (proxy.parts.empty()) continue;
       TouchedBody t;
       t.object = object;
-      if (proxy.isDynamic()) t.rigid = btRigidBody::upcast(object);
+      if (btRigidBody* rigid = proxy.isDynamic() ? btRigidBody::upcast(object) : nullptr) {
+        t.rigid = rigid;
+        t.velocity = rigid->getLinearVelocity();
+        t.spin = rigid->getAngularVelocity();
+        t.acceleration = toBullet(proxy.acceleration);
+        t.angularAcceleration = toBullet(proxy.angularAcceleration);
+        // Without it a crate that stands on the ground would fall through every tick's substeps and be put
+        // back.
+        for (const Reaction& held : reactions) {
+          if (held.body != rigid) continue;
+          proxy.acceleration += toEigen(held.linear);
+          proxy.angularAcceleration += toEigen(held.angular);
+        }
+      }
       touched.push_back(t);
       proxies.push_back(std::move(proxy));
     }
@@ -160,6 +181,9 @@ void Destruction::Impl::gatherProxies() {
 
 void Destruction::Impl::advance(double dt) {
   if (advanced || !failure.empty()) return;
+  followSleep();
+  substeps = 0;
+  if (!solver->anyAwake()) return;
   advanced = true;
   const Stopwatch watch(times.edem);
   gatherProxies();
@@ -177,19 +201,20 @@ void Destruction::Impl::advance(double dt) {
     t.deltaVelocity = toBullet(change);
     t.deltaSpin = t.rigid->getInvInertiaTensorWorld() * toBullet(proxies[p].angularImpulse);
     t.freeEnd = toBullet(Eigen::Vector3d(s.position + dt * (s.velocity + dt * s.acceleration + change)));
-    if (proxies[p].contactWeight > 0) t.rigid->activate();
+    if (proxies[p].contactWeight > 0 && !t.rigid->isActive()) t.rigid->activate();
   }
   for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
 }
 
 void Destruction::Impl::finish(double dt) {
-  if (!advanced && solver->anyAwake()) advance(dt);
+  if (!advanced) advance(dt);
   for (DestructibleBody* body : bodies) {
     body->impl().shape->setHidden(false);
     body->impl().near.clear();
   }
   if (advanced) {
     lateImpulses();
+    noteReactions(dt);
     fixPositions();
     writeAppliedImpulses();
     const Stopwatch watch(times.fracture);
@@ -231,6 +256,27 @@ void Destruction::Impl::fixPositions() {
     at.setOrigin(at.getOrigin() + static_cast<btScalar>(blend) * shift);
     t.rigid->setWorldTransform(at);
     t.rigid->setInterpolationWorldTransform(at);
+  }
+}
+
+/// A body that was at rest before and after this tick is held by something that only Bullet knows: the
+/// substeps of the next tick count on half of it, and half of what they counted on before, so that it
+/// settles.
+void Destruction::Impl::noteReactions(double dt) {
+  const std::vector<Reaction> before = std::exchange(reactions, {});
+  const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
+  const btScalar rate = static_cast<btScalar>(1 / dt);
+  for (const TouchedBody& t : touched) {
+    if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
+    Reaction now{t.rigid,
+                 rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
+                 rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
+    for (const Reaction& last : before) {
+      if (last.body != now.body) continue;
+      now.linear = last.linear + kTrust * (now.linear - last.linear);
+      now.angular = last.angular + kTrust * (now.angular - last.angular);
+    }
+    reactions.push_back(now);
   }
 }
 
@@ -366,15 +412,20 @@ void Destruction::Impl::stepDebris(double dt) {
   ledgerBook.addExchange(exchange);
 }
 
-/// Bullet's own rules decide; we only tell it whether anything moves, and follow.
+/// Bullet has put islands to sleep, or woken them.
+void Destruction::Impl::followSleep() {
+  for (DestructibleBody* body : bodies) solver->setAsleep(body->id(), !body->isActive());
+}
+
+/// Bullet's own rules decide who sleeps; we tell it whether anything moves.
 void Destruction::Impl::updateSleep(double dt) {
   for (DestructibleBody* body : bodies) {
     const std::uint32_t id = body->id();
-    const bool asleep = solver->view(id).asleep;
-    if (asleep && body->isActive()) solver->setAsleep(id, false);
-    if (!asleep && !body->isActive()) solver->setAsleep(id, true);
     const double speed = solver->maxSpeed(id);
     const bool quiet = def.sleep && speed < kQuietSpeed;
+    double& calm = body->impl().calmTime;
+    calm = speed < kCalmSpeed ? calm + dt : 0;
+    solver->setSettling(id, def.sleep && calm > kCalmTime ? kSettleRate : 0);
     if (!quiet) {
       body->forceActivationState(DISABLE_DEACTIVATION);
       body->setDeactivationTime(0);

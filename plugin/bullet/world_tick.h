@@ -22,9 +22,17 @@ struct TouchedBody {
   btCollisionObject* object = nullptr;
   btRigidBody* rigid = nullptr;  ///< null unless dynamic
   btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
-  bool given = false;  ///< Bullet's solver has taken it
+  bool given = false;                                             ///< Bullet's solver has taken it
+  btVector3 velocity{0, 0, 0}, spin{0, 0, 0};                     ///< before the tick
+  btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
   btVector3 freeEnd{0, 0,
                     0};  ///< where the body would be at the end of the tick under its impulse as a whole
+};
+
+/// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.
+struct Reaction {
+  const btRigidBody* body = nullptr;  ///< compared only
+  btVector3 linear{0, 0, 0}, angular{0, 0, 0};
 };
 
 struct Destruction::Impl {
@@ -50,6 +58,7 @@ struct Destruction::Impl {
   std::vector<DestructibleBody*> bodies;
   std::vector<TouchedBody> touched;
   std::vector<edem::RigidProxy> proxies;  ///< beside `touched`
+  std::vector<Reaction> reactions;        ///< of the last tick
   bool advanced = false;                  ///< in this tick
   LedgerBook ledgerBook;
   Events events[2];
@@ -65,10 +74,12 @@ struct Destruction::Impl {
   void gatherProxies();
   void lateImpulses();
   void fixPositions();
+  void noteReactions(double dt);
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();
   void stepDebris(double dt);
+  void followSleep();
   void updateSleep(double dt);
   DestructibleBody* bodyOf(std::uint32_t id) const;
   template <class T>

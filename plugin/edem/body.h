@@ -53,7 +53,8 @@ struct Body {
   std::shared_ptr<const Asset> asset;
   Material material;
   Model model;
-  double massDamping = 0;
+  double massDamping = 0;    ///< of the deformation velocity [1/s]
+  double settleDamping = 0;  ///< the same, while the host lets the body come to rest [1/s]
 
   // Constants of the elements.
   std::vector<double> mass;  ///< density x volume of the cell [kg]

@@ -52,8 +52,8 @@ double kineticOf(const Body<Real>& body, std::size_t i) {
 }  // namespace
 
 template <class Real>
-void dampDeformation(Body<Real>& body, double dt, Books& books) {
-  const double lost = -std::expm1(-body.massDamping * dt);
+void dampDeformation(Body<Real>& body, double rate, double dt, Books& books) {
+  const double lost = -std::expm1(-rate * dt);
   const auto motions = rigidMotions(body);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     if (!body.alive[i]) continue;
@@ -88,8 +88,8 @@ void bookSlept(Body<Real>& body, Books& books) {
   }
 }
 
-template void dampDeformation(Body<float>&, double, Books&);
-template void dampDeformation(Body<double>&, double, Books&);
+template void dampDeformation(Body<float>&, double, double, Books&);
+template void dampDeformation(Body<double>&, double, double, Books&);
 template void bookSlept(Body<float>&, Books&);
 template void bookSlept(Body<double>&, Books&);
 

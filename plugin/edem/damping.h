@@ -6,10 +6,10 @@
 
 namespace rubble::edem {
 
-/// Damps the deformation velocity of each fragment at the body's rate for `dt` seconds: what is left after
-/// its rigid motion (mean velocity and spin) is taken away, so free fall and flight are not braked.
+/// Damps the deformation velocity of each fragment at `rate` [1/s] for `dt` seconds: what is left after its
+/// rigid motion (mean velocity and spin) is taken away, so free fall and flight are not braked.
 template <class Real>
-void dampDeformation(Body<Real>& body, double dt, Books& books);
+void dampDeformation(Body<Real>& body, double rate, double dt, Books& books);
 
 /// Stops all elements of a body that falls asleep.
 template <class Real>

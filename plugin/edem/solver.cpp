@@ -133,6 +133,8 @@ class SolverOf final : public Solver {
     m_books.kinetic += work;
   }
 
+  void setSettling(std::uint32_t id, double rate) override { m_bodies[placeOf(id)]->settleDamping = rate; }
+
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_bodies[placeOf(id)];
     if (body.asleep == asleep) return;
@@ -385,7 +387,8 @@ void SolverOf<Real>::closeTick(double dt) {
     const bool broke = std::any_of(m_report.broken.begin(), m_report.broken.end(),
                                    [&](const BrokenSpring& s) { return s.body == body->id; });
     if (broke) labelFragments(*body);
-    if (body->massDamping > 0) dampDeformation(*body, dt, m_books);
+    const double damping = std::max(body->massDamping, body->settleDamping);
+    if (damping > 0) dampDeformation(*body, damping, dt, m_books);
     fitFrame(*body);
     // The frame may have moved, and listed positions are relative to it.
     m_listsStale = true;

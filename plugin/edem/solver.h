@@ -75,6 +75,8 @@ class Solver {
   /// [N s], [N m s]. Booked as the host's.
   virtual void push(std::uint32_t id, std::size_t element, const Eigen::Vector3d& linear,
                     const Eigen::Vector3d& angular) = 0;
+  /// Lets a body come to rest: damps its fragments' deformation at least at this rate [1/s]; 0: no more.
+  virtual void setSettling(std::uint32_t id, double rate) = 0;
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;
   /// FNV-1a over the bits of the state of all bodies.
