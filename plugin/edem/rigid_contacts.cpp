@@ -9,8 +9,8 @@ namespace rubble::edem {
 namespace {
 
 /// Share of m / h^2 that a contact's stiffness may reach against a light rigid body of mass m. 1 lets a body
-/// of 1e-4 element masses gain energy a hundredfold, 0.02 none (measured, plugin/README.md "Light rigid
-/// bodies").
+/// of 1e-4 element masses gain energy a hundredfold, 0.02 none (plugin/README.md, "Rigid
+/// bodies in the substeps").
 constexpr double kLightBodyShare = 0.02;
 
 /// Surface nearest to a world point over all parts of a proxy.
