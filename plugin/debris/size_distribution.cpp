@@ -80,10 +80,12 @@ double radiusByMass(const SizeLaw& law, double q) {
   return law.maxRadius * std::pow(dust + (1 - dust) * q, 1 / law.modulus);
 }
 
-double unitHash(std::uint64_t seed, std::uint32_t body, std::uint32_t element) {
-  const std::uint64_t place = (std::uint64_t{body} << 32) | element;
-  // The upper 53 bits fill a double's mantissa, so 1 is never reached.
-  return static_cast<double>(mixed(mixed(seed) ^ mixed(~place)) >> 11) * 0x1p-53;
+double sizeOffset(std::uint64_t seed, std::uint32_t body, std::uint32_t element) {
+  // In 64-bit fractions of 1, where the golden section's steps wrap by themselves. The upper 53 bits fill a
+  // double's mantissa, so 1 is never reached.
+  constexpr std::uint64_t kGoldenSection = 0x9e3779b97f4a7c15;
+  const std::uint64_t begin = mixed(mixed(seed) ^ mixed(~std::uint64_t{body}));
+  return static_cast<double>((begin + element * kGoldenSection) >> 11) * 0x1p-53;
 }
 
 double pieceSizes(const SizeLaw& law, DebrisSizes mode, double u, std::span<PieceSize> out) {

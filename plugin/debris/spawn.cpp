@@ -106,7 +106,7 @@ void Spawner::spawn(const CrushedElement& element, std::span<const CellFace> fac
 // Sizes, masses, places and scattering directions: all that both readings of the paper share.
 void Spawner::makePieces(const CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch) {
   const SizeLaw law{element.maxRadius, m_material.dustRadius, m_material.sizeModulus};
-  const double u = unitHash(m_seed, element.body, element.element);
+  const double u = sizeOffset(m_seed, element.body, element.element);
   m_sizes.resize(std::max<std::size_t>(faces.size(), 1));
   batch.dustShare = pieceSizes(law, m_model.debrisSizes, u, m_sizes);
   const std::size_t count = batch.dustShare < 1 ? m_sizes.size() : 0;

@@ -1,8 +1,6 @@
 // A grid on either back end, side by side in one context.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,15 +8,12 @@
 
 #include "dust/cpu/cpu_dust.h"
 #include "dust/gl/gl_dust.h"
-#include "window/egl_context.h"
+#include "gl/context.h"
 
 namespace rubble::test {
 
-class Both : public ::testing::Test {
+class Both : public GlTest {
  protected:
-  static void SetUpTestSuite() { s_context = std::make_unique<demo::EglContext>(); }
-  static void TearDownTestSuite() { s_context.reset(); }
-
   void make(const DustGridDef& def) {
     m_cpu = std::make_unique<dust::CpuDust>(def);
     m_gl = std::make_unique<dust::GlDust>(def, RUBBLE_SHADER_DIR);
@@ -74,7 +69,6 @@ class Both : public ::testing::Test {
     EXPECT_LE(d.most, tolerance * d.scale) << "field " << static_cast<int>(field) << ", largest " << d.scale;
   }
 
-  static inline std::unique_ptr<demo::EglContext> s_context;
   std::unique_ptr<dust::CpuDust> m_cpu;
   std::unique_ptr<dust::GlDust> m_gl;
 };

@@ -14,7 +14,7 @@ constexpr float kStep = 1.0f / 60;  // [s]
 
 class DustKernel : public Both {
  protected:
-  void SetUp() override { start(grid()); }
+  void prepare() override { start(grid()); }
 
   // Swirls of several metres a second and a cloud, smooth so that the comparison is not about limiters'
   // kinks.

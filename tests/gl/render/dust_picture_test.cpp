@@ -30,8 +30,8 @@ class DustPicture : public Picture {
   // A box of 4 x 1 x 4 metres in a constant white light that the dust does not scatter.
   DustPicture() : m_dust({.resolution = kCells, .min = {-2, 1, -2}, .max = {2, 2, 2}}) {}
 
-  void SetUp() override {
-    Picture::SetUp();
+  void prepare() override {
+    Picture::prepare();
     m_lighting.skyZenith = m_lighting.skyHorizon = {2, 2, 2};
     m_lighting.exposure = 0.4f;
     m_black.colour.setZero();

@@ -2,26 +2,21 @@
 // picture.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <memory>
 
+#include "gl/context.h"
 #include "gl/render/random.h"
 #include "rubble/render.h"
 #include "support/grid_asset.h"
-#include "window/egl_context.h"
 
 namespace rubble::test {
 
-class Picture : public ::testing::Test {
+class Picture : public GlTest {
  protected:
   static constexpr int kWidth = 240, kHeight = 180;
 
-  static void SetUpTestSuite() { s_context = std::make_unique<demo::EglContext>(); }
-  static void TearDownTestSuite() { s_context.reset(); }
-
-  void SetUp() override {
+  void prepare() override {
     m_renderer =
         std::make_unique<Renderer>(RendererDef{.shaderDirectory = RUBBLE_SHADER_DIR, .shadowMapSize = 1024});
     m_framebuffer = std::make_unique<Framebuffer>(kWidth, kHeight);
@@ -64,7 +59,6 @@ class Picture : public ::testing::Test {
     return count;
   }
 
-  static inline std::unique_ptr<demo::EglContext> s_context;
   std::unique_ptr<Renderer> m_renderer;
   std::unique_ptr<Framebuffer> m_framebuffer;
   Camera m_camera;

@@ -80,7 +80,7 @@ std::vector<Grain> crush(std::uint32_t elements, MaxRadius maxRadiusOf) {
   std::array<PieceSize, kPieces> sizes;
   for (std::uint32_t e = 0; e < elements; ++e) {
     const auto [maximum, mass] = maxRadiusOf(e);
-    const double dust = pieceSizes({maximum, 1e-6, 0.7}, DebrisSizes::Mass, unitHash(1, 0, e), sizes);
+    const double dust = pieceSizes({maximum, 1e-6, 0.7}, DebrisSizes::Mass, sizeOffset(1, 0, e), sizes);
     grains.push_back({1e-6, dust * mass});
     for (const PieceSize& piece : sizes) grains.push_back({piece.radius, piece.massShare * mass});
   }
@@ -157,11 +157,11 @@ TEST(DustShare, GrainsBelowDustAreAllDust) {
   EXPECT_EQ(sizes[0].radius, -1) << "no pieces are made";
 }
 
-TEST(UnitHash, SpreadsElementsEvenly) {
+TEST(SizeOffset, SpreadsElementsEvenly) {
   constexpr int kElements = 10000, kBins = 10;
   std::array<int, kBins> count{};
   for (std::uint32_t e = 0; e < kElements; ++e) {
-    const double u = unitHash(1, 0, e);
+    const double u = sizeOffset(1, 0, e);
     ASSERT_GE(u, 0);
     ASSERT_LT(u, 1);
     ++count[static_cast<std::size_t>(u * kBins)];
@@ -171,13 +171,13 @@ TEST(UnitHash, SpreadsElementsEvenly) {
   EXPECT_LT(chiSquare, 27.9);  // 99.9 % of chi-square with 9 degrees of freedom
 }
 
-TEST(UnitHash, DependsOnSeedBodyAndElement) {
-  const double u = unitHash(1, 2, 3);
-  EXPECT_EQ(u, unitHash(1, 2, 3));
-  EXPECT_NE(u, unitHash(2, 2, 3));
-  EXPECT_NE(u, unitHash(1, 3, 3));
-  EXPECT_NE(u, unitHash(1, 2, 4));
-  EXPECT_NE(unitHash(1, 2, 3), unitHash(1, 3, 2));
+TEST(SizeOffset, DependsOnSeedBodyAndElement) {
+  const double u = sizeOffset(1, 2, 3);
+  EXPECT_EQ(u, sizeOffset(1, 2, 3));
+  EXPECT_NE(u, sizeOffset(2, 2, 3));
+  EXPECT_NE(u, sizeOffset(1, 3, 3));
+  EXPECT_NE(u, sizeOffset(1, 2, 4));
+  EXPECT_NE(sizeOffset(1, 2, 3), sizeOffset(1, 3, 2));
 }
 
 TEST(SizeLaw, RefusesNumbersOutOfRange) {
