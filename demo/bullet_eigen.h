@@ -9,11 +9,10 @@
 namespace rubble::demo {
 
 inline Eigen::Vector3f toEigen(const btVector3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  return {float(v.x()), float(v.y()), float(v.z())};
 }
 inline Eigen::Quaternionf toEigen(const btQuaternion& q) {
-  return {static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
-          static_cast<float>(q.z())};
+  return {float(q.w()), float(q.x()), float(q.y()), float(q.z())};
 }
 
 }  // namespace rubble::demo

@@ -1,4 +1,4 @@
-#include "command_line.h"
+#include "demo/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "input_error.h"
+#include "demo/input_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr int kLargestPicture = 8192;  // [pixels]
 constexpr int kMostThreads = 256;
 
-/// What CLI11 fills in before it is checked.
+// What CLI11 fills in before it is checked.
 struct Raw {
   std::string size = "1280x720";
   std::vector<std::string> sets;
@@ -24,7 +24,7 @@ struct Raw {
 
 int defaultThreads() {
   constexpr unsigned kEnough = 8;  // the dust grid gains little beyond
-  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kEnough));
+  return int(std::clamp(std::thread::hardware_concurrency(), 1u, kEnough));
 }
 
 void parseSize(const std::string& text, int& width, int& height) {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "run.h"
-#include "scene.h"
-#include "view.h"
+#include "demo/run.h"
+#include "demo/scene.h"
+#include "demo/view.h"
 
 namespace rubble::demo {
 

@@ -1,8 +1,8 @@
-#include "console.h"
+#include "demo/console.h"
 
 #include <iostream>
 
-#include "progress.h"
+#include "demo/progress.h"
 
 namespace rubble::demo {
 

@@ -1,7 +1,7 @@
 // What the library tells, for a person at a console: its log and the progress of cooking.
 #pragma once
 
-#include "world.h"
+#include "demo/world.h"
 
 namespace rubble::demo {
 

@@ -1,7 +1,7 @@
-#include "dust_setup.h"
+#include "demo/dust_setup.h"
 
-#include "bullet_eigen.h"
-#include "input_error.h"
+#include "demo/bullet_eigen.h"
+#include "demo/input_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -13,11 +13,11 @@ DustGridDef gridDef(const Scene& scene, int threads) {
   def.resolution = dust.resolution;
   def.min = dust.min.cast<float>();
   def.max = dust.max.cast<float>();
-  def.grainRadius = static_cast<float>(material.dustRadius);
-  def.grainDensity = static_cast<float>(material.density);
-  def.gravity = static_cast<float>(-scene.gravity.y());
-  def.vorticity = static_cast<float>(dust.vorticity);
-  def.drag = static_cast<float>(dust.drag);
+  def.grainRadius = float(material.dustRadius);
+  def.grainDensity = float(material.density);
+  def.gravity = float(-scene.gravity.y());
+  def.vorticity = float(dust.vorticity);
+  def.drag = float(dust.drag);
   def.pressureCycles = dust.pressureCycles;
   def.threads = threads;
   return def;

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "demo/world.h"
 #include "rubble/dust.h"
-#include "world.h"
 
 namespace rubble::demo {
 

@@ -1,4 +1,4 @@
-#include "event_lines.h"
+#include "demo/event_lines.h"
 
 #include <nlohmann/json.hpp>
 

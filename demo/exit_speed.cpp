@@ -1,9 +1,9 @@
-#include "exit_speed.h"
+#include "demo/exit_speed.h"
 
 #include <vector>
 
-#include "bullet_eigen.h"
-#include "world.h"
+#include "demo/bullet_eigen.h"
+#include "demo/world.h"
 
 namespace rubble::demo {
 
@@ -15,7 +15,7 @@ ExitSpeed::ExitSpeed(const World& world) {
   for (const DestructibleBody* body : world.destruction().bodies()) {
     poses.resize(body->asset()->elementCount());
     body->poses(poses);
-    const Eigen::Vector3f radius = Eigen::Vector3f::Constant(static_cast<float>(body->asset()->radius));
+    const Eigen::Vector3f radius = Eigen::Vector3f::Constant(float(body->asset()->radius));
     for (const ElementPose& pose : poses) {
       m_objects.extend(pose.position - radius);
       m_objects.extend(pose.position + radius);
@@ -30,7 +30,7 @@ void ExitSpeed::update(const World& world) {
   impactor.getAabb(low, high);
   const bool inside = m_objects.intersects(Eigen::AlignedBox3f(toEigen(low), toEigen(high)));
   m_left = !inside && m_speed.has_value();
-  if (inside || m_left) m_speed = static_cast<double>(impactor.getLinearVelocity().dot(m_direction));
+  if (inside || m_left) m_speed = double(impactor.getLinearVelocity().dot(m_direction));
 }
 
 }  // namespace rubble::demo

@@ -1,27 +1,14 @@
-#include "frame.h"
+#include "demo/frame.h"
 
-#include <chrono>
-
-#include "picture_writer.h"
+#include "base/stopwatch.h"
+#include "demo/picture_writer.h"
 
 namespace rubble::demo {
 namespace {
 
-/// Milliseconds since it was last read.
-class StopWatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::milli>(now - std::exchange(m_last, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
-};
-
 void stepDust(FrameParts& parts, const Events& events) {
   findObstacles(*parts.world, parts.obstacles);
-  parts.dust->step(static_cast<float>(1 / parts.world->scene().fps), events.dustSources, parts.obstacles);
+  parts.dust->step(float(1 / parts.world->scene().fps), events.dustSources, parts.obstacles);
 }
 
 void drawFrame(FrameParts& parts, int frame) {
@@ -32,7 +19,7 @@ void drawFrame(FrameParts& parts, int frame) {
 }  // namespace
 
 void runFrame(FrameParts& parts, int frame) {
-  StopWatch total, watch;
+  base::Stopwatch total, watch;
   FrameTimes times;
   parts.world->step();
   const Events& events = parts.world->destruction().takeEvents();

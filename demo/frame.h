@@ -2,11 +2,11 @@
 // nothing.
 #pragma once
 
-#include "dust_setup.h"
-#include "recorder.h"
+#include "demo/dust_setup.h"
+#include "demo/recorder.h"
+#include "demo/stage.h"
+#include "demo/world.h"
 #include "rubble/render.h"
-#include "stage.h"
-#include "world.h"
 
 namespace rubble::demo {
 

@@ -1,22 +1,22 @@
-#include "info.h"
+#include "demo/info.h"
 
 #include <malloc.h>
 
 #include <cmath>
 #include <iomanip>
 
-#include "console.h"
-#include "dust_setup.h"
-#include "input_error.h"
-#include "world.h"
+#include "demo/console.h"
+#include "demo/dust_setup.h"
+#include "demo/input_error.h"
+#include "demo/world.h"
 
 namespace rubble::demo {
 namespace {
 
-/// Memory in use by the program [MB], as its allocator counts it.
+// Memory in use by the program [MB], as its allocator counts it.
 double memoryInUse() {
   const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / 1e6;
+  return double(info.uordblks + info.hblkhd) / 1e6;
 }
 
 std::ostream& row(std::ostream& out, const std::string& name) {

@@ -9,7 +9,7 @@ namespace rubble::demo {
 /// The text with everything that could end a line taken out.
 inline std::string oneLine(std::string text) {
   for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    if (std::uint8_t(c) < ' ') c = ' ';
   return text;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "keys.h"
+#include "demo/keys.h"
 
 namespace rubble::demo {
 
@@ -16,7 +16,7 @@ Key<T> number(std::string name, M member, Range range, std::string unit, std::st
           std::move(meaning),
           [=](T& target, const Json& json, const Place& place) {
             using Value = std::decay_t<decltype(target.*member)>;
-            target.*member = static_cast<Value>(readNumber(json, range, place));
+            target.*member = Value(readNumber(json, range, place));
           },
           [=](const T& target) { return shown(target.*member); }};
 }
@@ -30,7 +30,7 @@ Key<T> whole(std::string name, M member, double min, double max, std::string uni
           std::move(meaning),
           [=](T& target, const Json& json, const Place& place) {
             using Value = std::decay_t<decltype(target.*member)>;
-            target.*member = static_cast<Value>(readWhole(json, range, place));
+            target.*member = Value(readWhole(json, range, place));
           },
           [=](const T& target) { return std::to_string(target.*member); }};
 }

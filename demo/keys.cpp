@@ -1,4 +1,4 @@
-#include "keys.h"
+#include "demo/keys.h"
 
 #include <array>
 #include <charconv>
@@ -10,8 +10,7 @@ namespace {
 template <class Float>
 std::string shortest(Float value) {
   constexpr Float kAllDigits = Float(1e9);  // whole numbers below are not written as 1e+05
-  if (value == std::floor(value) && std::abs(value) < kAllDigits)
-    return std::to_string(static_cast<long>(value));
+  if (value == std::floor(value) && std::abs(value) < kAllDigits) return std::to_string(long(value));
   std::array<char, 40> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);
@@ -80,7 +79,7 @@ std::uint64_t readWhole(const Json& value, const Range& range, const Place& plac
   if (!value.is_number()) place.refuse(kind(value), allowed);
   const double number = value.get<double>();
   if (!range.holds(number) || std::floor(number) != number) place.refuse(kind(value), allowed);
-  return value.is_number_integer() ? value.get<std::uint64_t>() : static_cast<std::uint64_t>(number);
+  return value.is_number_integer() ? value.get<std::uint64_t>() : std::uint64_t(number);
 }
 
 bool readFlag(const Json& value, const Place& place) {
@@ -101,8 +100,7 @@ Eigen::Vector3d readVector(const Json& value, const Range& range, const Place& p
   if (!value.is_array() || value.size() != 3) place.refuse(kind(value), "must be a list of three numbers");
   Eigen::Vector3d vector;
   for (int axis = 0; axis < 3; ++axis) {
-    vector[axis] =
-        readNumber(value[static_cast<std::size_t>(axis)], range, place.child(std::to_string(axis)));
+    vector[axis] = readNumber(value[std::size_t(axis)], range, place.child(std::to_string(axis)));
   }
   return vector;
 }

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "input_error.h"
+#include "demo/input_error.h"
 
 namespace rubble::demo {
 

@@ -2,10 +2,10 @@
 #include <exception>
 #include <iostream>
 
-#include "command_line.h"
-#include "info.h"
-#include "input_error.h"
-#include "report.h"
+#include "demo/command_line.h"
+#include "demo/info.h"
+#include "demo/input_error.h"
+#include "demo/report.h"
 #include "rubble/error.h"
 
 namespace {

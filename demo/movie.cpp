@@ -1,4 +1,4 @@
-#include "movie.h"
+#include "demo/movie.h"
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -10,7 +10,7 @@
 namespace rubble::demo {
 namespace {
 
-/// True when the program was found and ended with 0. No shell: names of files need no quoting.
+// True when the program was found and ended with 0. No shell: names of files need no quoting.
 bool runProgram(std::vector<std::string> arguments) {
   std::vector<char*> raw;
   for (std::string& argument : arguments) raw.push_back(argument.data());

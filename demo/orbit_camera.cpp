@@ -1,4 +1,4 @@
-#include "orbit_camera.h"
+#include "demo/orbit_camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "panel.h"
+#include "demo/panel.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -9,10 +9,9 @@
 namespace rubble::demo {
 
 Panel::Panel(GLFWwindow* window, const Scene& scene) {
-  m_input.gravity = static_cast<float>(-scene.gravity.y());
-  if (scene.dust) m_input.opacity = static_cast<float>(scene.dust->opacity);
-  if (!scene.impactors.empty())
-    m_input.ballSpeed = static_cast<float>(scene.impactors.front().velocity.norm());
+  m_input.gravity = float(-scene.gravity.y());
+  if (scene.dust) m_input.opacity = float(scene.dust->opacity);
+  if (!scene.impactors.empty()) m_input.ballSpeed = float(scene.impactors.front().velocity.norm());
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
@@ -49,7 +48,7 @@ void Panel::layOut(const Summary& summary, int frame) {
   ImGui::SliderFloat("dust opacity", &m_input.opacity, 0, 4, "%.2f");
   ImGui::Separator();
   const DestructionCounts& counts = summary.counts;
-  ImGui::Text("frame %d, %.1f frames/s", frame, static_cast<double>(ImGui::GetIO().Framerate));
+  ImGui::Text("frame %d, %.1f frames/s", frame, double(ImGui::GetIO().Framerate));
   ImGui::Text("%u of %u elements crushed", counts.crushed, counts.elements);
   ImGui::Text("%u of %u springs broken", counts.springsBroken, counts.springs);
   ImGui::Text("%u fragments, %u debris", counts.fragments, counts.debrisAlive);

@@ -1,8 +1,8 @@
 // The viewer's controls, and what the mouse and the keyboard asked for. Dear ImGui, drawn over the scene.
 #pragma once
 
-#include "recorder.h"
-#include "scene.h"
+#include "demo/recorder.h"
+#include "demo/scene.h"
 
 struct GLFWwindow;
 

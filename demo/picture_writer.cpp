@@ -1,8 +1,8 @@
-#include "picture_writer.h"
+#include "demo/picture_writer.h"
 
 #include <utility>
 
-#include "window/png.h"
+#include "demo/window/png.h"
 
 namespace rubble::demo {
 namespace {

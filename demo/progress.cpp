@@ -1,4 +1,4 @@
-#include "progress.h"
+#include "demo/progress.h"
 
 #include <unistd.h>
 
@@ -45,7 +45,7 @@ void Progress::showOnTerminal(double share, const std::string& what) {
 }
 
 void Progress::showInLog(double share, const std::string& what) {
-  const int tenths = static_cast<int>(10 * share);
+  const int tenths = int(10 * share);
   if (tenths <= m_tenths) return;
   m_tenths = tenths;
   std::cerr << m_label << ": " << what << ", " << 10 * tenths << " %\n";

@@ -1,12 +1,12 @@
-#include "recorder.h"
+#include "demo/recorder.h"
 
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
-#include "event_lines.h"
-#include "input_error.h"
+#include "demo/event_lines.h"
+#include "demo/input_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -21,7 +21,7 @@ std::ofstream open(const std::filesystem::path& file) {
   return stream;
 }
 
-/// 64 bits as text: JSON numbers hold 53.
+// 64 bits as text: JSON numbers hold 53.
 std::string hex(std::uint64_t value) {
   std::ostringstream text;
   text << std::hex << std::setw(16) << std::setfill('0') << value;

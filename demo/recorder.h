@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "exit_speed.h"
+#include "demo/exit_speed.h"
+#include "demo/world.h"
 #include "rubble/dust.h"
-#include "world.h"
 
 namespace rubble::demo {
 

@@ -1,13 +1,13 @@
-#include "report.h"
+#include "demo/report.h"
 
 #include <fstream>
 #include <iomanip>
 #include <vector>
 
-#include "console.h"
-#include "frame.h"
-#include "input_error.h"
-#include "progress.h"
+#include "demo/console.h"
+#include "demo/frame.h"
+#include "demo/input_error.h"
+#include "demo/progress.h"
 
 namespace rubble::demo {
 namespace {
@@ -31,7 +31,7 @@ Row measure(const Scene& scene, const Assets& assets, Progress& progress, double
   return {scene.precision, substep, recorder.summary()};
 }
 
-/// `separator` between cells; a Markdown row also begins and ends with one.
+// `separator` between cells; a Markdown row also begins and ends with one.
 void writeRow(std::ostream& out, const Row& row, const char* separator) {
   out << (row.precision == Precision::Float ? "float" : "double") << separator << row.substep * 1e6
       << separator << row.summary.counts.springsBroken << separator << row.summary.counts.crushed << separator
@@ -57,7 +57,7 @@ std::vector<Row> measureAll(const Scene& wholeScene, const Assets& assets) {
       Scene scene = wholeScene;
       scene.precision = precision;
       scene.substepSafety *= share;
-      rows.push_back(measure(scene, assets, progress, static_cast<double>(rows.size()) / kRuns, 1 / kRuns));
+      rows.push_back(measure(scene, assets, progress, double(rows.size()) / kRuns, 1 / kRuns));
     }
   }
   return rows;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "scene.h"
+#include "demo/scene.h"
 
 namespace rubble::demo {
 

@@ -1,21 +1,21 @@
-#include "run.h"
+#include "demo/run.h"
 
 #include <utility>
 
-#include "console.h"
-#include "frame.h"
-#include "input_error.h"
-#include "movie.h"
-#include "picture_writer.h"
-#include "progress.h"
-#include "summary.h"
-#include "window/egl_context.h"
+#include "demo/console.h"
+#include "demo/frame.h"
+#include "demo/input_error.h"
+#include "demo/movie.h"
+#include "demo/picture_writer.h"
+#include "demo/progress.h"
+#include "demo/summary.h"
+#include "demo/window/egl_context.h"
 
 namespace rubble::demo {
 namespace {
 
-/// What only a run with pictures has. Members die in reverse order, so the context outlives all that was made
-/// in it.
+// What only a run with pictures has. Members die in reverse order, so the context outlives all that was made
+// in it.
 struct Drawing {
   Drawing(const World& world, const RunOptions& options)
       : stage(world, world.scene()), framebuffer(options.width, options.height) {}
@@ -34,7 +34,7 @@ std::optional<EglContext> makeContext(const Scene& scene, const RunOptions& opti
   }
 }
 
-/// Refuses what could not be written later, before the long work begins.
+// Refuses what could not be written later, before the long work begins.
 void checkOutputs(const RunOptions& options) {
   if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
     throw InputError("--out", options.out.string(), "is a file, must be a folder");

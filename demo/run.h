@@ -5,8 +5,8 @@
 #include <optional>
 #include <ostream>
 
-#include "recorder.h"
-#include "scene.h"
+#include "demo/recorder.h"
+#include "demo/scene.h"
 
 namespace rubble::demo {
 

@@ -1,4 +1,4 @@
-#include "scene.h"
+#include "demo/scene.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scene_keys.h"
+#include "demo/scene_keys.h"
 
 namespace rubble::demo {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kDeepestExtends = 8;                  // a chain of `extends` long
 constexpr int kDeepestNesting = 32;                 // [levels]; no scene is deeper
 constexpr std::uintmax_t kLargestFile = 16u << 20;  // [bytes]; no scene is larger, a wrong file may be
 
-/// The merged scene and where its values came from.
+// The merged scene and where its values came from.
 struct Document {
   Json json = Json::object();
   Origins origins;
@@ -25,7 +25,7 @@ std::string joined(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
 
-/// The entry `part` of an object or list, made when it is new (a list grows by one at most).
+// The entry `part` of an object or list, made when it is new (a list grows by one at most).
 Json& entry(Json& parent, const std::string& part, const Place& place) {
   if (parent.is_object() || parent.is_null()) return parent[part];
   if (!parent.is_array()) place.refuse("is " + shown(parent), "has no keys of its own");
@@ -35,7 +35,7 @@ Json& entry(Json& parent, const std::string& part, const Place& place) {
   place.child(part).refuse("there is no such entry", "allowed: 0 to " + std::to_string(count));
 }
 
-/// Objects merge, null takes a key away, everything else replaces (RFC 7386).
+// Objects merge, null takes a key away, everything else replaces (RFC 7386).
 void merge(Document& document, Json& target, const Json& value, const std::string& path,
            const std::string& source) {
   if (!value.is_object() || !target.is_object()) document.origins[path] = source;
@@ -53,7 +53,7 @@ void merge(Document& document, Json& target, const Json& value, const std::strin
   }
 }
 
-/// Merges `value` at a dotted path.
+// Merges `value` at a dotted path.
 void mergeAt(Document& document, const std::string& path, const Json& value, const std::string& source) {
   document.origins[path] = source;
   Json* target = &document.json;
@@ -88,7 +88,7 @@ std::string readFile(const std::filesystem::path& file, const std::string& name)
   return text.str();
 }
 
-/// "line 3, column 5" of a byte offset.
+// "line 3, column 5" of a byte offset.
 std::string lineAndColumn(const std::string& text, std::size_t byte) {
   const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
@@ -97,7 +97,7 @@ std::string lineAndColumn(const std::string& text, std::size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-/// Refuses deep nesting: a hostile file must not use up the stack of what reads it.
+// Refuses deep nesting: a hostile file must not use up the stack of what reads it.
 bool limitDepth(int depth, Json::parse_event_t, Json&) {
   if (depth > kDeepestNesting) throw std::length_error("nested too deeply");
   return true;
@@ -115,7 +115,7 @@ Json parse(const std::string& text, const std::string& name) {
   }
 }
 
-/// JSON, or a bare word.
+// JSON, or a bare word.
 Json parseValue(const Override& change) {
   try {
     return Json::parse(change.value, limitDepth);

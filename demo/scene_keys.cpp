@@ -1,8 +1,8 @@
 // One row a key; a new key is one row here and a field in scene.h. Rows are read in this order, so that a row
 // may look at what those above it have set.
-#include "scene_keys.h"
+#include "demo/scene_keys.h"
 
-#include "key_rows.h"
+#include "demo/key_rows.h"
 #include "rubble/material.h"
 
 namespace rubble::demo {

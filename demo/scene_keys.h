@@ -1,8 +1,8 @@
 // Every key that a scene may hold.
 #pragma once
 
-#include "keys.h"
-#include "scene.h"
+#include "demo/keys.h"
+#include "demo/scene.h"
 
 namespace rubble::demo {
 

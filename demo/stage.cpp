@@ -1,4 +1,4 @@
-#include "stage.h"
+#include "demo/stage.h"
 
 #include <LinearMath/btConvexHullComputer.h>
 #include <epoxy/gl.h>
@@ -6,7 +6,7 @@
 #include <array>
 #include <numbers>
 
-#include "bullet_eigen.h"
+#include "demo/bullet_eigen.h"
 
 namespace rubble::demo {
 namespace {
@@ -20,8 +20,8 @@ RendererDef rendererDef() {
 Lighting lighting(const SceneLight& light) {
   Lighting lighting;
   lighting.sunDirection = -light.direction.cast<float>();
-  lighting.skyAmbient *= static_cast<float>(light.ambient);
-  lighting.groundAmbient *= static_cast<float>(light.ambient);
+  lighting.skyAmbient *= float(light.ambient);
+  lighting.groundAmbient *= float(light.ambient);
   return lighting;
 }
 
@@ -37,11 +37,11 @@ HullMesh hullMesh(const btConvexHullShape& shape) {
   for (int i = 0; i < hull.vertices.size(); ++i) mesh.vertices.push_back(toEigen(hull.vertices[i]));
   for (int face = 0; face < hull.faces.size(); ++face) {
     const btConvexHullComputer::Edge* first = &hull.edges[hull.faces[face]];
-    const auto fan = static_cast<std::uint32_t>(first->getSourceVertex());
+    const auto fan = std::uint32_t(first->getSourceVertex());
     for (auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex();
          edge = edge->getNextEdgeOfFace()) {
-      mesh.triangles.push_back({fan, static_cast<std::uint32_t>(edge->getSourceVertex()),
-                                static_cast<std::uint32_t>(edge->getTargetVertex())});
+      mesh.triangles.push_back(
+          {fan, std::uint32_t(edge->getSourceVertex()), std::uint32_t(edge->getTargetVertex())});
     }
   }
   return mesh;
@@ -62,10 +62,9 @@ void Stage::addProp(const btRigidBody& body) {
   const btCollisionShape& shape = *body.getCollisionShape();
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
-      m_props.push_back(
-          {&body,
-           m_renderer.addSphere(static_cast<float>(static_cast<const btSphereShape&>(shape).getRadius())),
-           btTransform::getIdentity()});
+      m_props.push_back({&body,
+                         m_renderer.addSphere(float(static_cast<const btSphereShape&>(shape).getRadius())),
+                         btTransform::getIdentity()});
       break;
     case BOX_SHAPE_PROXYTYPE:
       m_props.push_back(
@@ -91,7 +90,7 @@ void Stage::addPlane(const btRigidBody& body) {
   constexpr btScalar kLevel = btScalar(0.999999);  // cosine of the largest tilt that the ground hides
   if (normal.y() > kLevel) {
     const btVector3 point = body.getWorldTransform() * (plane.getPlaneNormal() * plane.getPlaneConstant());
-    m_renderer.addGroundPlane(static_cast<float>(point.y()));
+    m_renderer.addGroundPlane(float(point.y()));
     return;
   }
   constexpr float kHalfWidth = 20, kHalfThickness = 0.01f;  // [m]
@@ -121,7 +120,7 @@ void Stage::update(const World& world) {
 
 void Stage::showDust(const DustGrid* dust, double opacity) {
   DustLook look;
-  look.opacity = static_cast<float>(opacity);
+  look.opacity = float(opacity);
   m_renderer.setDust(dust, look);
 }
 
@@ -133,7 +132,7 @@ Camera sceneCamera(const SceneCamera& camera) {
   Camera result;
   result.eye = camera.eye.cast<float>();
   result.target = camera.target.cast<float>();
-  result.verticalFov = static_cast<float>(camera.fieldOfViewDegrees * std::numbers::pi / 180);
+  result.verticalFov = float(camera.fieldOfViewDegrees * std::numbers::pi / 180);
   return result;
 }
 

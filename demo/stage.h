@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "dust_setup.h"
+#include "demo/dust_setup.h"
+#include "demo/world.h"
 #include "rubble/render.h"
-#include "world.h"
 
 namespace rubble::demo {
 

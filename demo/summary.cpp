@@ -1,4 +1,4 @@
-#include "summary.h"
+#include "demo/summary.h"
 
 #include <iomanip>
 #include <sstream>

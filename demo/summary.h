@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "recorder.h"
+#include "demo/recorder.h"
 
 namespace rubble::demo {
 

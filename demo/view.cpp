@@ -1,18 +1,18 @@
-#include "view.h"
+#include "demo/view.h"
 
 #include <chrono>
 
-#include "console.h"
-#include "frame.h"
-#include "input_error.h"
-#include "orbit_camera.h"
-#include "panel.h"
-#include "window/glfw_window.h"
+#include "demo/console.h"
+#include "demo/frame.h"
+#include "demo/input_error.h"
+#include "demo/orbit_camera.h"
+#include "demo/panel.h"
+#include "demo/window/glfw_window.h"
 
 namespace rubble::demo {
 namespace {
 
-/// Everything that `reset` makes anew.
+// Everything that `reset` makes anew.
 struct Session {
   Session(const Scene& scene, const Assets& assets, int threads)
       : world(scene, assets, consoleLog()),
@@ -29,7 +29,7 @@ struct Session {
   int frame = 0;
 };
 
-/// The ball that is shot: the scene's own if it has one.
+// The ball that is shot: the scene's own if it has one.
 SceneBody ball(const Scene& scene) {
   for (const SceneBody& body : scene.impactors)
     if (body.shape == SceneBody::Shape::Sphere) return body;
@@ -56,13 +56,12 @@ void applyInput(const PanelInput& input, Session& session, const Scene& scene, O
   if (input.shootAhead) shoot(session, scene, camera, camera.ray(0.5f, 0.5f, aspect), input.ballSpeed);
   if (input.shootAtCursor)
     shoot(session, scene, camera, camera.ray(input.cursorX, input.cursorY, aspect), input.ballSpeed);
-  if (input.gravityMoved)
-    session.world.bullet().setGravity(btVector3(0, static_cast<btScalar>(-input.gravity), 0));
+  if (input.gravityMoved) session.world.bullet().setGravity(btVector3(0, btScalar(-input.gravity), 0));
   session.stage.showDust(session.dust.get(), input.opacity);
 }
 
-/// True once for every frame of simulated time that has passed on the clock; a slow machine skips none, it
-/// runs slower.
+// True once for every frame of simulated time that has passed on the clock; a slow machine skips none, it
+// runs slower.
 class Pace {
  public:
   explicit Pace(double fps) : m_frame(std::chrono::duration<double>(1 / fps)) {}
@@ -101,7 +100,7 @@ void viewScene(const Scene& scene, const ViewOptions& options) {
     if (width == 0 || height == 0) continue;  // minimised
     const PanelInput input = panel.show(session->recorder.summary(), session->frame);
     if (input.reset) session.emplace(scene, assets, options.threads);
-    applyInput(input, *session, scene, camera, static_cast<float>(width) / static_cast<float>(height));
+    applyInput(input, *session, scene, camera, float(width) / float(height));
     if (input.step || (!input.paused && pace.due())) runFrame(session->parts, session->frame++);
     session->stage.draw(camera.camera(), {0, width, height});
     panel.draw();

@@ -1,7 +1,7 @@
 // `rubble view`: a scene in a window, with a camera to orbit and balls to shoot.
 #pragma once
 
-#include "scene.h"
+#include "demo/scene.h"
 
 namespace rubble::demo {
 

@@ -1,16 +1,16 @@
-#include "world.h"
+#include "demo/world.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "hash.h"
-#include "input_error.h"
+#include "base/hash.h"
+#include "demo/input_error.h"
 
 namespace rubble::demo {
 namespace {
 
 btVector3 toBullet(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
 }
 
 btTransform placed(const Placement& at) {
@@ -18,7 +18,7 @@ btTransform placed(const Placement& at) {
   const double degrees = at.rotationDegrees.norm();
   if (degrees > 0) {
     const double angle = degrees * std::numbers::pi / 180;
-    transform.setRotation(btQuaternion(toBullet(at.rotationDegrees / degrees), static_cast<btScalar>(angle)));
+    transform.setRotation(btQuaternion(toBullet(at.rotationDegrees / degrees), btScalar(angle)));
   }
   return transform;
 }
@@ -26,12 +26,11 @@ btTransform placed(const Placement& at) {
 std::unique_ptr<btCollisionShape> makeShape(const SceneBody& def) {
   switch (def.shape) {
     case SceneBody::Shape::Sphere:
-      return std::make_unique<btSphereShape>(static_cast<btScalar>(def.radius));
+      return std::make_unique<btSphereShape>(btScalar(def.radius));
     case SceneBody::Shape::Box:
       return std::make_unique<btBoxShape>(toBullet(def.size / 2));
     case SceneBody::Shape::Plane:
-      return std::make_unique<btStaticPlaneShape>(toBullet(def.normal.normalized()),
-                                                  static_cast<btScalar>(def.offset));
+      return std::make_unique<btStaticPlaneShape>(toBullet(def.normal.normalized()), btScalar(def.offset));
     case SceneBody::Shape::Hull:
       break;
   }
@@ -57,7 +56,7 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   return def;
 }
 
-/// Does `work` on one object of the scene; what the library refuses there becomes the scene's error.
+// Does `work` on one object of the scene; what the library refuses there becomes the scene's error.
 template <class Work>
 void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
   try {
@@ -93,7 +92,7 @@ World::World(const Scene& scene, const LogFunction& log)
   m_world->setGravity(toBullet(scene.gravity));
   m_world->setInternalTickCallback(
       [](btDynamicsWorld* world, btScalar seconds) {
-        static_cast<World*>(world->getWorldUserInfo())->finishTick(static_cast<double>(seconds));
+        static_cast<World*>(world->getWorldUserInfo())->finishTick(double(seconds));
       },
       this);
 }
@@ -130,13 +129,13 @@ void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> as
 
 btRigidBody* World::addBody(const SceneBody& def) {
   btCollisionShape* shape = m_shapes.emplace_back(makeShape(def)).get();
-  const btScalar mass = static_cast<btScalar>(def.mass);
+  const btScalar mass = btScalar(def.mass);
   btVector3 inertia(0, 0, 0);
   if (mass > 0) shape->calculateLocalInertia(mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
   info.m_startWorldTransform = placed(def);
-  info.m_friction = static_cast<btScalar>(def.friction);
-  info.m_restitution = static_cast<btScalar>(def.restitution);
+  info.m_friction = btScalar(def.friction);
+  info.m_restitution = btScalar(def.restitution);
   auto* body = new btRigidBody(info);  // deleted with the world
   m_world->addRigidBody(body);
   return body;
@@ -152,10 +151,9 @@ btRigidBody* World::addImpactor(const SceneBody& def) {
 void World::step() {
   m_substeps = 0;
   m_simulated = 0;
-  const int mostTicks = static_cast<int>(std::ceil(m_scene.bulletRate / m_scene.fps)) + 1;
+  const int mostTicks = int(std::ceil(m_scene.bulletRate / m_scene.fps)) + 1;
   try {
-    m_world->stepSimulation(static_cast<btScalar>(1 / m_scene.fps), mostTicks,
-                            static_cast<btScalar>(1 / m_scene.bulletRate));
+    m_world->stepSimulation(btScalar(1 / m_scene.fps), mostTicks, btScalar(1 / m_scene.bulletRate));
   } catch (const Error& error) {
     throw RunStopped(error.what());
   }
@@ -170,7 +168,7 @@ void World::finishTick(double seconds) {
 }
 
 std::uint64_t World::hash() const {
-  Fnv1a hash;
+  base::Fnv1a hash;
   hash.add(m_destruction->hash());
   for (int i = 0; i < m_world->getNumCollisionObjects(); ++i) {
     const btCollisionObject* object = m_world->getCollisionObjectArray()[i];

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "demo/scene.h"
 #include "rubble/cook.h"
 #include "rubble/destruction.h"
-#include "scene.h"
 
 namespace rubble::demo {
 

@@ -1,4 +1,4 @@
-#include "window/egl_context.h"
+#include "demo/window/egl_context.h"
 
 #include <epoxy/egl.h>
 

@@ -1,4 +1,4 @@
-#include "window/glfw_window.h"
+#include "demo/window/glfw_window.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

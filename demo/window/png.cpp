@@ -1,4 +1,4 @@
-#include "window/png.h"
+#include "demo/window/png.h"
 
 #include <png.h>
 
@@ -24,16 +24,15 @@ std::vector<std::uint8_t> withoutAlpha(const Image& image) {
 void writePng(const std::filesystem::path& file, const Image& image) {
   const std::string name = file.string();
   if (image.width < 1 || image.height < 1 ||
-      image.pixels.size() !=
-          std::size_t{4} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+      image.pixels.size() != std::size_t{4} * std::size_t(image.width) * std::size_t(image.height)) {
     throw Error(name + ": a picture of " + std::to_string(image.width) + " x " +
                 std::to_string(image.height) + " pixels cannot be written");
   }
   const std::vector<std::uint8_t> rgb = withoutAlpha(image);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
+  png.width = png_uint_32(image.width);
+  png.height = png_uint_32(image.height);
   png.format = PNG_FORMAT_RGB;
   // Beside the file first, so that who watches the folder never sees half a picture.
   const std::string unfinished = name + ".part";

@@ -13,7 +13,7 @@ CouplerConstraint::CouplerConstraint(DestructibleBody& body, Destruction::Impl& 
 }
 
 void CouplerConstraint::buildJacobian() {
-  m_world.advance(static_cast<double>(m_world.world.getSolverInfo().m_timeStep));
+  m_world.advance(double(m_world.world.getSolverInfo().m_timeStep));
 }
 
 void CouplerConstraint::getInfo1(btConstraintInfo1* info) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTouch = 1e-5;    // nearer than this is a touch [m]
 constexpr int kMostAdvances = 32;  // a grazing sweep converges slowly; what is left then is no touch
 
-/// Velocity change along n of a rigid body for a unit impulse at `at`.
+// Velocity change along n of a rigid body for a unit impulse at `at`.
 double inverseMassAt(const edem::RigidProxy& p, const Eigen::Vector3d& at, const Eigen::Vector3d& n) {
   const Eigen::Matrix3d turn = p.orientation.toRotationMatrix();
   const Eigen::Vector3d lever = (at - p.position).cross(n);

@@ -87,13 +87,13 @@ std::uint64_t Destruction::debrisHash() const {
 }
 
 void Destruction::updateAction(btCollisionWorld*, btScalar dt) {
-  m_impl->finish(static_cast<double>(dt));
+  m_impl->finish(double(dt));
 }
 
 void Destruction::debugDraw(btIDebugDraw* drawer) {
   for (const DestructibleBody* body : m_impl->bodies) {
     const edem::BodyView view = m_impl->solver->view(body->id());
-    const auto radius = static_cast<btScalar>(m_impl->solver->radius(body->id()));
+    const auto radius = btScalar(m_impl->solver->radius(body->id()));
     for (std::size_t i = 0; i < view.alive.size(); ++i)
       if (view.alive[i])
         drawer->drawSphere(bullet::toBullet(m_impl->solver->position(body->id(), i)), radius,

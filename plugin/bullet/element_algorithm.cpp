@@ -16,14 +16,14 @@ namespace rubble {
 RUBBLE_ABI_BEGIN
 namespace {
 
-/// A point where an element and the other object are near.
+// A point where an element and the other object are near.
 struct Near {
   Eigen::Vector3d point, normal;  // on the other object's surface, out of it
   double distance;
 };
 
-/// Fewest points that show where a contact is: the deepest, then always the one furthest from those chosen.
-/// A manifold of Bullet's holds four.
+// Fewest points that show where a contact is: the deepest, then always the one furthest from those chosen.
+// A manifold of Bullet's holds four.
 void keepFour(std::vector<Near>& points) {
   constexpr std::size_t kPoints = MANIFOLD_CACHE_SIZE;
   if (points.size() <= kPoints) return;
@@ -42,7 +42,7 @@ void keepFour(std::vector<Near>& points) {
   points.resize(kPoints);
 }
 
-/// Points of the elements of `own` within `margin` of `other` [m].
+// Points of the elements of `own` within `margin` of `other` [m].
 std::vector<Near> nearPoints(const DestructibleBody& own, const btCollisionObject& other, double margin) {
   std::vector<Near> points;
   Destruction::Impl* world = own.impl().world;
@@ -69,10 +69,10 @@ std::vector<Near> nearPoints(const DestructibleBody& own, const btCollisionObjec
   return points;
 }
 
-/// Notes who is near for the substeps, and writes manifold points for the application; Bullet's solver leaves
-/// these alone (DestructibleBody's contactProcessingThreshold). Two destructibles touch by their elements and
-/// have no manifold points. Stays small: Bullet makes algorithms in a pool of fixed pieces and does not check
-/// (192 bytes by default).
+// Notes who is near for the substeps, and writes manifold points for the application; Bullet's solver leaves
+// these alone (DestructibleBody's contactProcessingThreshold). Two destructibles touch by their elements and
+// have no manifold points. Stays small: Bullet makes algorithms in a pool of fixed pieces and does not check
+// (192 bytes by default).
 class ElementAlgorithm : public btCollisionAlgorithm {
  public:
   ElementAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* first,
@@ -90,14 +90,13 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     if (!ownA == !ownB) return;
     if (!m_isQuery) note(ownA ? *ownA : *ownB, ownA ? *b : *a);
     result->setPersistentManifold(m_manifold);
-    const double margin = m_isQuery ? static_cast<double>(result->m_closestPointDistanceThreshold)
-                                    : static_cast<double>(m_manifold->getContactBreakingThreshold());
+    const double margin = m_isQuery ? double(result->m_closestPointDistanceThreshold)
+                                    : double(m_manifold->getContactBreakingThreshold());
     for (const Near& p : nearPoints(ownA ? *ownA : *ownB, ownA ? *b : *a, margin)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
       result->addContactPoint(bullet::toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
-                              bullet::toBullet(ownB ? onElement : p.point),
-                              static_cast<btScalar>(p.distance));
+                              bullet::toBullet(ownB ? onElement : p.point), btScalar(p.distance));
     }
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,

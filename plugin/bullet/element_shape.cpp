@@ -68,10 +68,9 @@ void ElementShape::answer(btTriangleRaycastCallback& ray) const {
     const double miss2 = (to - middle * along).squaredNorm();
     if (miss2 > radius * radius) continue;
     const double t = middle - std::sqrt((radius * radius - miss2) / length2);
-    if (t < 0 || t > static_cast<double>(ray.m_hitFraction)) continue;
+    if (t < 0 || t > double(ray.m_hitFraction)) continue;
     const Eigen::Vector3d normal = (t * along - to).normalized();
-    ray.m_hitFraction =
-        ray.reportHit(bullet::toBullet(normal), static_cast<btScalar>(t), 0, static_cast<int>(i));
+    ray.m_hitFraction = ray.reportHit(bullet::toBullet(normal), btScalar(t), 0, int(i));
   }
 }
 
@@ -81,7 +80,7 @@ void ElementShape::answer(btTriangleConvexcastCallback& sweep) const {
   sweep.m_convexShape->getAabb(sweep.m_convexShapeTo, endLow, endHigh);
   low.setMin(endLow);
   high.setMax(endHigh);
-  const btSphereShape ball(static_cast<btScalar>(m_solver.radius(m_body)));
+  const btSphereShape ball(btScalar(m_solver.radius(m_body)));
   for (const std::uint32_t i : elementsAlong(low, high)) {
     const btTransform at(btQuaternion::getIdentity(), bullet::toBullet(m_solver.position(m_body, i)));
     btVoronoiSimplexSolver simplex;
@@ -92,8 +91,8 @@ void ElementShape::answer(btTriangleConvexcastCallback& sweep) const {
     result.m_allowedPenetration = sweep.m_allowedPenetration;
     if (!cast.calcTimeOfImpact(sweep.m_convexShapeFrom, sweep.m_convexShapeTo, at, at, result)) continue;
     if (result.m_normal.length2() < btScalar(1e-4) || !(result.m_fraction < sweep.m_hitFraction)) continue;
-    sweep.m_hitFraction = sweep.reportHit(result.m_normal.normalized(), result.m_hitPoint, result.m_fraction,
-                                          0, static_cast<int>(i));
+    sweep.m_hitFraction =
+        sweep.reportHit(result.m_normal.normalized(), result.m_hitPoint, result.m_fraction, 0, int(i));
   }
 }
 

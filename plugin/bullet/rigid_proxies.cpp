@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/hash.h"
 #include "bullet/convert.h"
 
 namespace rubble {
@@ -21,16 +22,9 @@ namespace {
 using bullet::toEigen;
 
 std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
-  std::uint64_t state = 14695981039346656037ull;
-  for (const Eigen::Vector3d& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::uint64_t bits = 0;
-      const double value = p[axis];
-      std::memcpy(&bits, &value, sizeof bits);
-      state = (state ^ bits) * 1099511628211ull;
-    }
-  }
-  return state;
+  base::Fnv1a hash;
+  for (const Eigen::Vector3d& p : points) hash.addAll(p);
+  return hash.value();
 }
 
 std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& points) {
@@ -88,7 +82,7 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
       c.kind = edem::Collider::Kind::Sphere;
-      c.size.x() = static_cast<double>(static_cast<const btSphereShape&>(shape).getRadius());
+      c.size.x() = double(static_cast<const btSphereShape&>(shape).getRadius());
       break;
     case BOX_SHAPE_PROXYTYPE:
       c.kind = edem::Collider::Kind::Box;
@@ -98,7 +92,7 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
       const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
       c.kind = edem::Collider::Kind::Plane;
       c.size = toEigen(plane.getPlaneNormal());
-      c.offset = static_cast<double>(plane.getPlaneConstant());
+      c.offset = double(plane.getPlaneConstant());
       break;
     }
     case COMPOUND_SHAPE_PROXYTYPE: {
@@ -110,7 +104,7 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
     case CONVEX_HULL_SHAPE_PROXYTYPE: {
       const auto& hull = static_cast<const btConvexHullShape&>(shape);
       for (int i = 0; i < hull.getNumPoints(); ++i) points.push_back(toEigen(hull.getScaledPoint(i)));
-      c.rounding = static_cast<double>(hull.getMargin());
+      c.rounding = double(hull.getMargin());
       break;
     }
     default:
@@ -148,12 +142,12 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
   edem::RigidProxy proxy;
   proxy.position = toEigen(object.getWorldTransform().getOrigin());
   proxy.orientation = toEigen(object.getWorldTransform().getRotation()).normalized();
-  proxy.friction = static_cast<double>(object.getFriction());
+  proxy.friction = double(object.getFriction());
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (rigid && !object.isStaticObject()) {
     proxy.velocity = toEigen(rigid->getLinearVelocity());
     proxy.spin = toEigen(rigid->getAngularVelocity());
-    proxy.inverseMass = object.isKinematicObject() ? 0.0 : static_cast<double>(rigid->getInvMass());
+    proxy.inverseMass = object.isKinematicObject() ? 0.0 : double(rigid->getInvMass());
   }
   if (proxy.isDynamic()) {
     // All that Bullet's solver will integrate in this tick: gravity and the application's forces.

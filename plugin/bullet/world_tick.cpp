@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
 #include "debris/bond.h"
@@ -15,34 +16,20 @@ namespace {
 using bullet::toBullet;
 using bullet::toEigen;
 
-/// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
+// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
 constexpr double kQuietSpeed = 0.01;
-/// Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. A body that may
-/// sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
-/// is damped at this rate [1/s].
+// Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. A body that may
+// sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
+// is damped at this rate [1/s].
 constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
-/// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm;
-/// above, fast bodies end where the substeps brought them (plugin/README.md).
+// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm;
+// above, fast bodies end where the substeps brought them (plugin/README.md).
 constexpr double kFixBegin = 0.05, kFixFull = 0.10;
-/// Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
-/// keeps jumping from tick to tick.
+// Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
+// keeps jumping from tick to tick.
 constexpr btScalar kTrust = btScalar(0.25);
-/// Resting debris within this many radii of a break wake up.
+// Resting debris within this many radii of a break wake up.
 constexpr double kWakeRadii = 3;
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& milliseconds) : m_sum(milliseconds), m_begin(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() {
-    m_sum += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_begin).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& m_sum;
-  std::chrono::steady_clock::time_point m_begin;
-};
 
 }  // namespace
 
@@ -102,9 +89,8 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   for (std::size_t i = 0; i < fragment.size(); ++i) impl->wasRoot[i] = fragment[i] == i;
 
   btVector3 inertia;
-  impl->shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, impl->shape.get(),
-                                                inertia);
+  impl->shape->calculateLocalInertia(btScalar(mass), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
   auto* body = new DestructibleBody(info, std::move(impl));
   body->impl().coupler = std::make_unique<CouplerConstraint>(*body, *this);
   body->setActivationState(DISABLE_DEACTIVATION);
@@ -185,7 +171,7 @@ void Destruction::Impl::advance(double dt) {
   substeps = 0;
   if (!solver->anyAwake()) return;
   advanced = true;
-  const Stopwatch watch(times.edem);
+  const base::ScopeTimer timer(times.edem);
   gatherProxies();
   std::vector<edem::RigidProxy> start = proxies;
   solver->tick(dt, toEigen(world.getGravity()), proxies);
@@ -217,12 +203,12 @@ void Destruction::Impl::finish(double dt) {
     noteReactions(dt);
     fixPositions();
     writeAppliedImpulses();
-    const Stopwatch watch(times.fracture);
+    const base::ScopeTimer timer(times.fracture);
     bookEvents();
     breakElements();
   }
   if (debrisSystem && failure.empty()) {
-    const Stopwatch watch(times.debris);
+    const base::ScopeTimer timer(times.debris);
     stepDebris(dt);
   }
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
@@ -230,18 +216,18 @@ void Destruction::Impl::finish(double dt) {
   advanced = false;
 }
 
-/// Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
+// Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
 void Destruction::Impl::lateImpulses() {
   for (TouchedBody& t : touched) {
     if (!t.rigid || t.given) continue;
     t.rigid->setLinearVelocity(t.rigid->getLinearVelocity() + t.deltaVelocity);
     t.rigid->setAngularVelocity(t.rigid->getAngularVelocity() + t.deltaSpin);
-    t.rigid->translate(t.deltaVelocity * static_cast<btScalar>(world.getSolverInfo().m_timeStep));
+    t.rigid->translate(t.deltaVelocity * btScalar(world.getSolverInfo().m_timeStep));
   }
 }
 
-/// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
-/// had it.
+// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
+// had it.
 void Destruction::Impl::fixPositions() {
   double radius = std::numeric_limits<double>::infinity();
   for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
@@ -249,23 +235,23 @@ void Destruction::Impl::fixPositions() {
     TouchedBody& t = touched[p];
     if (!t.rigid || !(proxies[p].contactWeight > 0)) continue;
     const btVector3 shift = toBullet(proxies[p].position) - t.freeEnd;
-    const double size = static_cast<double>(shift.length()) / radius;
+    const double size = double(shift.length()) / radius;
     const double blend = std::clamp((size - kFixBegin) / (kFixFull - kFixBegin), 0.0, 1.0);
     if (blend <= 0) continue;
     btTransform at = t.rigid->getWorldTransform();
-    at.setOrigin(at.getOrigin() + static_cast<btScalar>(blend) * shift);
+    at.setOrigin(at.getOrigin() + btScalar(blend) * shift);
     t.rigid->setWorldTransform(at);
     t.rigid->setInterpolationWorldTransform(at);
   }
 }
 
-/// A body that was at rest before and after this tick is held by something that only Bullet knows: the
-/// substeps of the next tick count on half of it, and half of what they counted on before, so that it
-/// settles.
+// A body that was at rest before and after this tick is held by something that only Bullet knows: the
+// substeps of the next tick count on half of it, and half of what they counted on before, so that it
+// settles.
 void Destruction::Impl::noteReactions(double dt) {
   const std::vector<Reaction> before = std::exchange(reactions, {});
   const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
-  const btScalar rate = static_cast<btScalar>(1 / dt);
+  const btScalar rate = btScalar(1 / dt);
   for (const TouchedBody& t : touched) {
     if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
     Reaction now{t.rigid,
@@ -280,7 +266,7 @@ void Destruction::Impl::noteReactions(double dt) {
   }
 }
 
-/// For applications that read manifolds: a body's impulse, in equal parts on the points of its manifold.
+// For applications that read manifolds: a body's impulse, in equal parts on the points of its manifold.
 void Destruction::Impl::writeAppliedImpulses() {
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
@@ -297,7 +283,7 @@ void Destruction::Impl::writeAppliedImpulses() {
         continue;
       const double share = 1.0 / double(proxy.touched.size()) / std::max(1, manifold.getNumContacts());
       for (int c = 0; c < manifold.getNumContacts(); ++c)
-        manifold.getContactPoint(c).m_appliedImpulse = static_cast<btScalar>(share * proxy.impulse.norm());
+        manifold.getContactPoint(c).m_appliedImpulse = btScalar(share * proxy.impulse.norm());
     }
   }
 }
@@ -307,8 +293,7 @@ void Destruction::Impl::bookEvents() {
   const edem::TickReport& report = solver->report();
   wakeBoxes.clear();
   for (const edem::BrokenSpring& s : report.broken) {
-    record(out.springsBroken,
-           {s.body, s.spring, s.mode, static_cast<float>(s.energy), s.position.cast<float>()});
+    record(out.springsBroken, {s.body, s.spring, s.mode, float(s.energy), s.position.cast<float>()});
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kWakeRadii * solver->radius(s.body));
     wakeBoxes.emplace_back(s.position - reach, s.position + reach);
   }
@@ -316,7 +301,7 @@ void Destruction::Impl::bookEvents() {
     const edem::RigidProxy& proxy = proxies[p];
     if (!(proxy.contactWeight > 0)) continue;
     for (const std::uint32_t id : proxy.touched)
-      record(out.contacts, {id, touched[p].object, static_cast<float>(proxy.impulse.norm()),
+      record(out.contacts, {id, touched[p].object, float(proxy.impulse.norm()),
                             (proxy.contactPoint / proxy.contactWeight).cast<float>()});
   }
   for (DestructibleBody* body : bodies) {
@@ -328,7 +313,7 @@ void Destruction::Impl::bookEvents() {
       if (view.fragment[i] == kNoElement) continue;
       FragmentSplit& f = split[view.fragment[i]];
       ++f.elements;
-      f.mass += static_cast<float>(view.mass[i]);
+      f.mass += float(view.mass[i]);
     }
     for (std::uint32_t i = 0; i < split.size(); ++i) {
       const bool root = view.fragment[i] == i;
@@ -339,34 +324,21 @@ void Destruction::Impl::bookEvents() {
   }
 }
 
-/// Crushed elements become debris and dust (paper 3.2, 3.3).
+// Crushed elements become debris and dust (paper 3.2, 3.3).
 void Destruction::Impl::breakElements() {
   Events& out = events[filling];
-  for (const edem::CrushedElement& c : solver->report().crushed) {
+  for (base::CrushedElement c : solver->report().crushed) {
     DestructibleBody* body = bodyOf(c.body);
     if (!body) continue;
     DestructibleBody::Impl& own = body->impl();
     ++crushed;
-    debris::CrushedElement e;
-    e.body = c.body;
-    e.element = c.element;
-    e.restCentre = own.asset->positions[c.element];
-    e.centre = c.position;
-    e.orientation = c.orientation;
-    e.velocity = c.velocity;
-    e.spin = c.spin;
-    e.mass = c.mass;
-    e.inertia = c.inertia;
-    e.volume = own.asset->volumes[c.element];
-    e.radius = own.asset->radius;
-    e.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
-    e.releasedEnergy = c.released;
-    own.spawner->spawn(e, own.asset->cellFaces(c.element), batch);
+    c.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
+    own.spawner->spawn(c, own.asset->cellFaces(c.element), batch);
     if (debrisSystem) {
       debrisSystem->add(batch.pieces);
       ledgerBook.addGiven(batch.energyGiven);
     } else {
-      const debris::Motion whole = debris::motionOf(c.mass, c.inertia, c.position, c.velocity, c.spin);
+      const debris::Motion whole = debris::motionOf(c.mass, c.inertia, c.centre, c.velocity, c.spin);
       debris::Motion rest = whole;
       rest -= batch.dustMotion;
       ledgerBook.addRemoved(rest);
@@ -375,16 +347,14 @@ void Destruction::Impl::breakElements() {
     const std::uint32_t pieces = debrisSystem ? std::uint32_t(batch.pieces.size()) : 0;
     debrisSpawned += pieces;
     record(out.elementsCrushed,
-           {c.body, c.element, pieces, static_cast<float>(c.mass), static_cast<float>(batch.dustMotion.mass),
-            static_cast<float>(c.fractureEnergy), static_cast<float>(e.maxRadius), c.position.cast<float>(),
-            c.velocity.cast<float>()});
+           {c.body, c.element, pieces, float(c.mass), float(batch.dustMotion.mass), float(c.fractureEnergy),
+            float(c.maxRadius), c.centre.cast<float>(), c.velocity.cast<float>()});
     for (std::uint32_t p = 0; p < pieces; ++p)
-      record(out.debrisSpawned, {c.body, c.element, static_cast<float>(batch.pieces[p].radius),
-                                 static_cast<float>(batch.pieces[p].mass)});
+      record(out.debrisSpawned,
+             {c.body, c.element, float(batch.pieces[p].radius), float(batch.pieces[p].mass)});
     if (batch.dustMotion.mass > 0)
-      record(out.dustSources,
-             {c.position.cast<float>(), c.velocity.cast<float>(), static_cast<float>(batch.dustMotion.mass),
-              static_cast<float>(own.material.dustRadius)});
+      record(out.dustSources, {c.centre.cast<float>(), c.velocity.cast<float>(), float(batch.dustMotion.mass),
+                               float(own.material.dustRadius)});
   }
 }
 
@@ -394,8 +364,7 @@ void Destruction::Impl::stepDebris(double dt) {
       const btCollisionObject* object = world.getCollisionObjectArray()[i];
       const btRigidBody* rigid = btRigidBody::upcast(object);
       if (!rigid || object->isStaticOrKinematicObject() || DestructibleBody::upcast(object)) continue;
-      if (!rigid->isActive() || static_cast<double>(rigid->getLinearVelocity().length()) < kQuietSpeed)
-        continue;
+      if (!rigid->isActive() || double(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
       btVector3 low, high;
       rigid->getAabb(low, high);
       wakeBoxes.emplace_back(toEigen(low), toEigen(high));
@@ -412,12 +381,12 @@ void Destruction::Impl::stepDebris(double dt) {
   ledgerBook.addExchange(exchange);
 }
 
-/// Bullet has put islands to sleep, or woken them.
+// Bullet has put islands to sleep, or woken them.
 void Destruction::Impl::followSleep() {
   for (DestructibleBody* body : bodies) solver->setAsleep(body->id(), !body->isActive());
 }
 
-/// Bullet's own rules decide who sleeps; we tell it whether anything moves.
+// Bullet's own rules decide who sleeps; we tell it whether anything moves.
 void Destruction::Impl::updateSleep(double dt) {
   for (DestructibleBody* body : bodies) {
     const std::uint32_t id = body->id();

@@ -2,7 +2,6 @@
 // moved things the debris, the ledger and the events.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,8 @@ struct TouchedBody {
   bool given = false;                                             ///< Bullet's solver has taken it
   btVector3 velocity{0, 0, 0}, spin{0, 0, 0};                     ///< before the tick
   btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
-  btVector3 freeEnd{0, 0,
-                    0};  ///< where the body would be at the end of the tick under its impulse as a whole
+  /// Where the body would be at the end of the tick under its impulse as a whole.
+  btVector3 freeEnd{0, 0, 0};
 };
 
 /// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.

@@ -1,4 +1,4 @@
-#include "box_distance.h"
+#include "cook/box_distance.h"
 
 #include <cmath>
 

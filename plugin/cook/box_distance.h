@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "signed_distance.h"
+#include "cook/signed_distance.h"
 
 namespace rubble::cooking {
 
@@ -11,7 +11,7 @@ class BoxDistance final : public SignedDistance {
  public:
   explicit BoxDistance(const Eigen::AlignedBox3d& box) : m_box(box) {}
 
-  // Fills its bounds: no other closed surface does.
+  /// Fills its bounds: no other closed surface does.
   static bool isBox(const CheckedMesh& mesh);
 
   Distance fast(const Eigen::Vector3d& place) const override { return exact(place); }

@@ -1,10 +1,10 @@
-#include "caps.h"
+#include "cook/caps.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "contradiction.h"
-#include "triangulation.h"
+#include "cook/contradiction.h"
+#include "cook/triangulation.h"
 
 namespace rubble::cooking {
 namespace {
@@ -51,7 +51,7 @@ std::vector<Loop> chain(std::span<const OutlineEdge> outline) {
                            [](const OutlineEdge& edge, std::uint32_t v) { return edge.from < v; });
       if (next == outline.end() || next->from != outline[at].to)
         throw Contradiction("the outline of a face is open");
-      at = static_cast<std::size_t>(next - outline.begin());
+      at = std::size_t(next - outline.begin());
     }
     if (loop.size() < 3) throw Contradiction("the outline of a face has two corners");
   }
@@ -65,7 +65,7 @@ void buildCap(const VoronoiDiagram& diagram, std::span<const OutlineEdge> outlin
   const std::uint32_t first = outline[0].first;
   const std::uint32_t second = outline[0].second;
   const std::vector<Loop> loops = chain(outline);
-  const auto start = static_cast<std::uint32_t>(result.triangles.size());
+  const auto start = std::uint32_t(result.triangles.size());
   const bool isCut =
       std::any_of(outline.begin(), outline.end(), [](const OutlineEdge& edge) { return edge.isCut; });
   if (isCut || loops.size() > 1) {
@@ -74,7 +74,7 @@ void buildCap(const VoronoiDiagram& diagram, std::span<const OutlineEdge> outlin
   } else {
     triangulateFan(loops[0], result.triangles);
   }
-  result.caps.push_back({first, second, start, static_cast<std::uint32_t>(result.triangles.size()) - start});
+  result.caps.push_back({first, second, start, std::uint32_t(result.triangles.size()) - start});
 }
 
 }  // namespace

@@ -3,23 +3,23 @@
 
 #include <vector>
 
-#include "surface_pass.h"
-#include "voronoi_edges.h"
+#include "cook/surface_pass.h"
+#include "cook/voronoi_edges.h"
 
 namespace rubble::cooking {
 
-// The part of the face between two cells that lies inside the solid.
+/// The part of the face between two cells that lies inside the solid.
 struct Cap {
-  std::uint32_t first;  // site, first < second
+  std::uint32_t first;  ///< site, first < second
   std::uint32_t second;
-  std::uint32_t firstTriangle;  // into Caps::triangles
+  std::uint32_t firstTriangle;  ///< into Caps::triangles
   std::uint32_t triangleCount;
 };
 
 struct Caps {
-  std::vector<Cap> caps;  // sorted by (first, second)
-  std::vector<std::array<std::uint32_t, 3>>
-      triangles;  // pool vertices; their normal points from first to second
+  std::vector<Cap> caps;  ///< sorted by (first, second)
+  /// Pool vertices; their normal points from first to second.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 Caps buildCaps(const VoronoiDiagram& diagram, const SurfacePieces& pieces,

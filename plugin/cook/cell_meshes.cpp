@@ -1,10 +1,10 @@
-#include "cell_meshes.h"
+#include "cook/cell_meshes.h"
 
 #include <algorithm>
 #include <bit>
 #include <map>
 
-#include "corner_normals.h"
+#include "cook/corner_normals.h"
 
 namespace rubble::cooking {
 namespace {
@@ -41,23 +41,23 @@ class CellMeshBuilder {
 
   void buildCell(std::uint32_t cell) {
     Cell& result = m_asset.cells.emplace_back();
-    result.firstTriangle = static_cast<std::uint32_t>(m_asset.triangles.size());
-    result.firstFace = static_cast<std::uint32_t>(m_asset.faces.size());
+    result.firstTriangle = std::uint32_t(m_asset.triangles.size());
+    result.firstFace = std::uint32_t(m_asset.faces.size());
     m_outerCorners.clear();
     for (const std::uint32_t p : m_diagram.polygonsOf.of(cell))
       addPolygon(cell, m_diagram.surface.polygons[p]);
-    result.outerTriangles = static_cast<std::uint32_t>(m_asset.triangles.size()) - result.firstTriangle;
+    result.outerTriangles = std::uint32_t(m_asset.triangles.size()) - result.firstTriangle;
     addPatches(cell);
     for (const std::uint32_t c : m_diagram.capsOf.of(cell)) addCap(cell, m_diagram.caps.caps[c]);
     result.innerTriangles =
-        static_cast<std::uint32_t>(m_asset.triangles.size()) - result.firstTriangle - result.outerTriangles;
-    result.faceCount = static_cast<std::uint32_t>(m_asset.faces.size()) - result.firstFace;
+        std::uint32_t(m_asset.triangles.size()) - result.firstTriangle - result.outerTriangles;
+    result.faceCount = std::uint32_t(m_asset.faces.size()) - result.firstFace;
   }
 
  private:
   std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal) {
     m_asset.corners.push_back({vertex, cell, normal});
-    return static_cast<std::uint32_t>(m_asset.corners.size() - 1);
+    return std::uint32_t(m_asset.corners.size() - 1);
   }
 
   void addPolygon(std::uint32_t cell, const SurfacePolygon& polygon) {
@@ -111,8 +111,7 @@ class CellMeshBuilder {
       sums.add(m_diagram.vertices[a], m_diagram.vertices[b], m_diagram.vertices[c]);
     });
     const double area = std::max(0.0, normal.dot(sums.area));
-    m_asset.faces.push_back(
-        {other, static_cast<float>(area), normal.cast<float>(), sums.centroid().cast<float>()});
+    m_asset.faces.push_back({other, float(area), normal.cast<float>(), sums.centroid().cast<float>()});
   }
 
   // One face for each connected set of surface polygons that look nearly the same way.
@@ -164,7 +163,7 @@ class CellMeshBuilder {
     const double length = sums.area.norm();
     const Eigen::Vector3d normal = length > 0 ? Eigen::Vector3d(sums.area / length) : orientation;
     m_asset.faces.push_back(
-        {kNoElement, static_cast<float>(sums.size), normal.cast<float>(), sums.centroid().cast<float>()});
+        {kNoElement, float(sums.size), normal.cast<float>(), sums.centroid().cast<float>()});
   }
 
   const CheckedMesh& m_mesh;

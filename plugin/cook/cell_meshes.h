@@ -1,12 +1,12 @@
 // Cells as the asset keeps them: drawn triangles with normals, and faces for debris.
 #pragma once
 
-#include "checked_mesh.h"
-#include "restricted_voronoi.h"
+#include "cook/checked_mesh.h"
+#include "cook/restricted_voronoi.h"
 
 namespace rubble::cooking {
 
-// Fills vertices, corners, triangles, faces and cells of the asset.
+/// Fills vertices, corners, triangles, faces and cells of the asset.
 void buildCellMeshes(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset);
 
 }  // namespace rubble::cooking

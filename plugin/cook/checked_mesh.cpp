@@ -1,4 +1,4 @@
-#include "checked_mesh.h"
+#include "cook/checked_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +67,7 @@ void copyUsed(const SurfaceMesh& mesh, CheckedMesh& checked) {
     for (const std::uint32_t v : triangle) newIndex[v] = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (newIndex[v] == kNoElement) continue;
-    newIndex[v] = static_cast<std::uint32_t>(checked.vertices.size());
+    newIndex[v] = std::uint32_t(checked.vertices.size());
     checked.vertices.push_back(mesh.vertices[v]);
     checked.bounds.extend(mesh.vertices[v]);
   }
@@ -114,7 +114,7 @@ void matchEdges(CheckedMesh& mesh) {
     if (first.upward == second.upward)
       fail("inconsistent orientation: triangles ", first.triangle, " and ", second.triangle,
            " turn opposite ways about ", where);
-    const auto edge = static_cast<std::uint32_t>(mesh.edges.size());
+    const auto edge = std::uint32_t(mesh.edges.size());
     mesh.edges.push_back({first.low, first.high});
     mesh.triangleEdges[first.triangle][first.side] = edge;
     mesh.triangleEdges[second.triangle][second.side] = edge;

@@ -12,20 +12,20 @@
 namespace rubble::cooking {
 
 struct CheckedMesh {
-  std::vector<Eigen::Vector3d> vertices;  // those that a triangle uses
+  std::vector<Eigen::Vector3d> vertices;  ///< those that a triangle uses
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Eigen::Vector3d> normals;                     // unit, one a triangle
-  std::vector<std::array<std::uint32_t, 2>> edges;          // smaller vertex first
-  std::vector<std::array<std::uint32_t, 3>> triangleEdges;  // side s runs from corner s to corner s + 1
-  std::vector<std::array<std::uint32_t, 3>> neighbours;     // the triangle behind side s
+  std::vector<Eigen::Vector3d> normals;                     ///< unit, one a triangle
+  std::vector<std::array<std::uint32_t, 2>> edges;          ///< smaller vertex first
+  std::vector<std::array<std::uint32_t, 3>> triangleEdges;  ///< side s runs from corner s to corner s + 1
+  std::vector<std::array<std::uint32_t, 3>> neighbours;     ///< the triangle behind side s
   Eigen::AlignedBox3d bounds;
-  double volume = 0;  // [m^3]
+  double volume = 0;  ///< [m^3]
 
   double diagonal() const { return bounds.diagonal().norm(); }
 };
 
-// Throws rubble::Error: empty, not finite, index out of range, not closed, not manifold, not consistently
-// oriented, oriented inwards, without volume.
+/// Throws rubble::Error: empty, not finite, index out of range, not closed, not manifold, not consistently
+/// oriented, oriented inwards, without volume.
 CheckedMesh checkMesh(const SurfaceMesh& mesh);
 
 }  // namespace rubble::cooking

@@ -5,16 +5,16 @@
 #include <numbers>
 #include <sstream>
 
-#include "cell_meshes.h"
-#include "checked_mesh.h"
-#include "hilbert.h"
-#include "packing.h"
-#include "polyhedron.h"
-#include "random.h"
-#include "restricted_voronoi.h"
-#include "signed_distance.h"
-#include "site_pieces.h"
-#include "springs.h"
+#include "cook/cell_meshes.h"
+#include "cook/checked_mesh.h"
+#include "cook/hilbert.h"
+#include "cook/packing.h"
+#include "cook/polyhedron.h"
+#include "cook/random.h"
+#include "cook/restricted_voronoi.h"
+#include "cook/signed_distance.h"
+#include "cook/site_pieces.h"
+#include "cook/springs.h"
 
 namespace rubble {
 namespace {
@@ -41,7 +41,7 @@ double ballVolume(double radius) {
 }
 
 double radiusForFill(double volume, double fill, std::size_t count) {
-  return std::cbrt(fill * volume / static_cast<double>(count) * 3 / (4 * std::numbers::pi));
+  return std::cbrt(fill * volume / double(count) * 3 / (4 * std::numbers::pi));
 }
 
 template <class... Parts>
@@ -102,7 +102,7 @@ class Packer {
  private:
   PackedElements packAsTold() const {
     const double radius = m_options.radius;
-    const double fill = static_cast<double>(m_options.elements) * ballVolume(radius) / m_mesh.volume;
+    const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
     if (fill > 1) {
       throw Error(line(m_options.elements, " elements of radius ", radius, " m fill ", fill,
                        " times the mesh's volume of ", m_mesh.volume, " m^3; ", whatFits(radius)));
@@ -145,7 +145,7 @@ class Packer {
 
   void warnOfShrink(double radius) const {
     if (!m_log) return;
-    const double fill = static_cast<double>(m_options.elements) * ballVolume(radius) / m_mesh.volume;
+    const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
     m_log(LogLevel::Warning, line("elements that fill ", m_options.fill, " of the mesh do not fit; radius ",
                                   radius, " m taken, which fills ", fill));
   }

@@ -1,4 +1,4 @@
-#include "corner_normals.h"
+#include "cook/corner_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr double kSmoothCosine = 0.86602540378443865;  // of 30 degrees
 
 std::size_t cornerOf(const CheckedMesh& mesh, std::uint32_t triangle, std::uint32_t vertex) {
   const auto& corners = mesh.triangles[triangle];
-  return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+  return std::size_t(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
 double angleAt(const CheckedMesh& mesh, std::uint32_t triangle, std::size_t corner) {

@@ -1,4 +1,4 @@
-#include "delaunay.h"
+#include "cook/delaunay.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -40,8 +40,8 @@ Tetrahedra delaunay(std::span<const Eigen::Vector3d> points) {
     auto& corners = result.points.emplace_back();
     auto& neighbours = result.neighbours.emplace_back();
     for (int k = 0; k < 4; ++k) {
-      corners[static_cast<std::size_t>(k)] = cell->vertex(k)->info();
-      neighbours[static_cast<std::size_t>(k)] = cell->neighbor(k)->info();
+      corners[std::size_t(k)] = cell->vertex(k)->info();
+      neighbours[std::size_t(k)] = cell->neighbor(k)->info();
     }
   }
   return result;

@@ -1,10 +1,10 @@
-#include "grid_distance.h"
+#include "cook/grid_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "box_distance.h"
+#include "cook/box_distance.h"
 
 namespace rubble::cooking {
 namespace {
@@ -30,8 +30,7 @@ std::unique_ptr<SignedDistance> signedDistance(const CheckedMesh& mesh, double r
 
 GridDistance::GridDistance(const CheckedMesh& mesh, double wantedSpacing) : m_mesh(mesh), m_tree(mesh) {
   chooseNodes(wantedSpacing);
-  m_values.assign(static_cast<std::size_t>(m_count[0]) * static_cast<std::size_t>(m_count[1]) *
-                      static_cast<std::size_t>(m_count[2]),
+  m_values.assign(std::size_t(m_count[0]) * std::size_t(m_count[1]) * std::size_t(m_count[2]),
                   std::numeric_limits<float>::infinity());
   std::vector<std::uint32_t> nearest(m_values.size(), kNoElement);
   measureBand(nearest);
@@ -54,8 +53,7 @@ void GridDistance::chooseNodes(double wantedSpacing) {
   constexpr double kWiden = 1.1;
   while (nodes(m_spacing) > kMostNodes) m_spacing *= kWiden;
   for (int axis = 0; axis < 3; ++axis)
-    m_count[static_cast<std::size_t>(axis)] =
-        static_cast<int>(std::ceil(sizes[axis] / m_spacing)) + 1 + 2 * kMargin;
+    m_count[std::size_t(axis)] = int(std::ceil(sizes[axis] / m_spacing)) + 1 + 2 * kMargin;
   m_origin = m_mesh.bounds.min() - Eigen::Vector3d::Constant(kMargin * m_spacing);
 }
 
@@ -72,14 +70,14 @@ void GridDistance::measureBand(std::vector<std::uint32_t>& nearest) {
     std::array<int, 3> low{};
     std::array<int, 3> high{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<Eigen::Index>(axis);
-      low[axis] = std::max(static_cast<int>(std::floor(box.min()[a])), 0);
-      high[axis] = std::min(static_cast<int>(std::ceil(box.max()[a])), m_count[axis] - 1);
+      const auto a = Eigen::Index(axis);
+      low[axis] = std::max(int(std::floor(box.min()[a])), 0);
+      high[axis] = std::min(int(std::ceil(box.max()[a])), m_count[axis] - 1);
     }
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y)
         for (int x = low[0]; x <= high[0]; ++x) {
-          const auto distance = static_cast<float>(distanceTo(t, place(x, y, z)));
+          const auto distance = float(distanceTo(t, place(x, y, z)));
           const std::size_t at = node(x, y, z);
           if (distance >= m_values[at]) continue;
           m_values[at] = distance;
@@ -99,7 +97,7 @@ void GridDistance::sweep(std::vector<std::uint32_t>& nearest, std::array<int, 3>
         const auto consider = [&](std::size_t from) {
           const std::uint32_t triangle = nearest[from];
           if (triangle == kNoElement || triangle == nearest[at]) return;
-          const auto distance = static_cast<float>(distanceTo(triangle, place(x, y, z)));
+          const auto distance = float(distanceTo(triangle, place(x, y, z)));
           if (distance >= m_values[at]) return;
           m_values[at] = distance;
           nearest[at] = triangle;
@@ -129,16 +127,15 @@ void GridDistance::applySigns() {
     const Eigen::Vector3d high = (box.max() - m_origin) / m_spacing;
     const Eigen::Vector3d& normal = m_mesh.normals[t];
     const Eigen::Vector3d& corner = m_mesh.vertices[m_mesh.triangles[t][0]];
-    for (int z = static_cast<int>(low.z()); z <= static_cast<int>(high.z()) + 1 && z < m_count[2]; ++z)
-      for (int y = static_cast<int>(low.y()); y <= static_cast<int>(high.y()) + 1 && y < m_count[1]; ++y) {
+    for (int z = int(low.z()); z <= int(high.z()) + 1 && z < m_count[2]; ++z)
+      for (int y = int(low.y()); y <= int(high.y()) + 1 && y < m_count[1]; ++y) {
         const Eigen::Vector3d line = place(0, y, z);
         if (!crossesLine(t, line.y(), line.z())) continue;
         // Where the line meets the plane; a triangle edge-on to it answers with its middle.
         const double slope = normal.y() * (line.y() - corner.y()) + normal.z() * (line.z() - corner.z());
         double x = normal.x() != 0 ? corner.x() - slope / normal.x() : box.center().x();
         x = std::clamp(x, box.min().x(), box.max().x());
-        const int at =
-            std::clamp(static_cast<int>(std::ceil((x - m_origin.x()) / m_spacing)), 0, m_count[0] - 1);
+        const int at = std::clamp(int(std::ceil((x - m_origin.x()) / m_spacing)), 0, m_count[0] - 1);
         flips[node(at, y, z)] ^= 1u;
       }
   }
@@ -159,17 +156,16 @@ Distance GridDistance::fast(const Eigen::Vector3d& p) const {
   std::array<double, 3> share{};
   double beyond = 0;  // squared distance to the grid, in spacings
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double wanted = scaled[static_cast<Eigen::Index>(axis)];
-    const double kept = std::clamp(wanted, 0.0, static_cast<double>(m_count[axis] - 1));
+    const double wanted = scaled[Eigen::Index(axis)];
+    const double kept = std::clamp(wanted, 0.0, double(m_count[axis] - 1));
     beyond += (wanted - kept) * (wanted - kept);
-    cell[axis] = std::min(static_cast<int>(kept), m_count[axis] - 2);
+    cell[axis] = std::min(int(kept), m_count[axis] - 2);
     share[axis] = kept - cell[axis];
   }
   Distance result{0, Eigen::Vector3d::Zero()};
   for (int corner = 0; corner < 8; ++corner) {
     const std::array<int, 3> bit = {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
-    const double value =
-        static_cast<double>(m_values[node(cell[0] + bit[0], cell[1] + bit[1], cell[2] + bit[2])]);
+    const double value = double(m_values[node(cell[0] + bit[0], cell[1] + bit[1], cell[2] + bit[2])]);
     std::array<double, 3> weight{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       weight[axis] = bit[axis] != 0 ? share[axis] : 1 - share[axis];

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "signed_distance.h"
-#include "triangle_tree.h"
+#include "cook/signed_distance.h"
+#include "cook/triangle_tree.h"
 
 namespace rubble::cooking {
 
 class GridDistance final : public SignedDistance {
  public:
-  // The mesh must outlive this. The spacing is as wanted or, where that takes too much memory, wider [m].
+  /// The mesh must outlive this. The spacing is as wanted or, where that takes too much memory, wider [m].
   GridDistance(const CheckedMesh& mesh, double wantedSpacing);
 
   Distance fast(const Eigen::Vector3d& place) const override;
@@ -23,10 +23,8 @@ class GridDistance final : public SignedDistance {
 
  private:
   std::size_t node(int x, int y, int z) const {
-    return static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(m_count[0]) *
-               (static_cast<std::size_t>(y) +
-                static_cast<std::size_t>(m_count[1]) * static_cast<std::size_t>(z));
+    return std::size_t(x) +
+           std::size_t(m_count[0]) * (std::size_t(y) + std::size_t(m_count[1]) * std::size_t(z));
   }
   Eigen::Vector3d place(int x, int y, int z) const { return m_origin + m_spacing * Eigen::Vector3d(x, y, z); }
 

@@ -1,4 +1,4 @@
-#include "hilbert.h"
+#include "cook/hilbert.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -46,8 +46,7 @@ std::vector<std::uint32_t> hilbertOrder(const std::vector<Eigen::Vector3d>& plac
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d scaled = (place - box.min()) * scale;
     keys.push_back(
-        hilbertIndex({static_cast<std::uint32_t>(scaled.x()), static_cast<std::uint32_t>(scaled.y()),
-                      static_cast<std::uint32_t>(scaled.z())}));
+        hilbertIndex({std::uint32_t(scaled.x()), std::uint32_t(scaled.y()), std::uint32_t(scaled.z())}));
   }
   std::vector<std::uint32_t> order(places.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -7,7 +7,7 @@
 
 namespace rubble::cooking {
 
-// Indices of the places in the order in which a Hilbert curve through the cube around them meets them.
+/// Indices of the places in the order in which a Hilbert curve through the cube around them meets them.
 std::vector<std::uint32_t> hilbertOrder(const std::vector<Eigen::Vector3d>& places);
 
 }  // namespace rubble::cooking

@@ -1,11 +1,11 @@
-#include "packing.h"
+#include "cook/packing.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "random.h"
+#include "cook/random.h"
 
 namespace rubble::cooking {
 namespace {
@@ -27,18 +27,15 @@ class ContactGrid {
       : m_origin(bounds.min()) {
     // Cells as wide as a diameter, unless the solid fills so little of its bounds that there would be too
     // many.
-    const double mostCells = 8.0 * static_cast<double>(count) + 4096;
+    const double mostCells = 8.0 * double(count) + 4096;
     double size = diameter;
     const auto cells = [&](double s) { return (bounds.sizes() / s).array().ceil().max(1.0).prod(); };
     constexpr double kWiden = 1.2;
     while (cells(size) > mostCells) size *= kWiden;
     m_scale = 1 / size;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      m_cells[axis] =
-          std::max(1, static_cast<int>(std::ceil(bounds.sizes()[static_cast<Eigen::Index>(axis)] / size)));
-    m_start.resize(static_cast<std::size_t>(m_cells[0]) * static_cast<std::size_t>(m_cells[1]) *
-                       static_cast<std::size_t>(m_cells[2]) +
-                   1);
+      m_cells[axis] = std::max(1, int(std::ceil(bounds.sizes()[Eigen::Index(axis)] / size)));
+    m_start.resize(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]) + 1);
     m_cellOf.resize(count);
     m_order.resize(count);
     m_sorted.resize(count);
@@ -50,11 +47,9 @@ class ContactGrid {
     sort(centres);
     for (std::uint32_t s = 0; s < m_order.size(); ++s) {
       const std::size_t cell = m_cellOf[m_order[s]];
-      const int x = static_cast<int>(cell % static_cast<std::size_t>(m_cells[0]));
-      const int y = static_cast<int>(cell / static_cast<std::size_t>(m_cells[0]) %
-                                     static_cast<std::size_t>(m_cells[1]));
-      const int z = static_cast<int>(cell / static_cast<std::size_t>(m_cells[0]) /
-                                     static_cast<std::size_t>(m_cells[1]));
+      const int x = int(cell % std::size_t(m_cells[0]));
+      const int y = int(cell / std::size_t(m_cells[0]) % std::size_t(m_cells[1]));
+      const int z = int(cell / std::size_t(m_cells[0]) / std::size_t(m_cells[1]));
       visitRow(s, s + 1, x + 1, y, z, visit);  // of its own row only what comes after it
       visitRow(s, rowStart(x - 1, y + 1, z), x + 1, y + 1, z, visit);
       for (int dy = -1; dy <= 1; ++dy)
@@ -64,18 +59,16 @@ class ContactGrid {
 
  private:
   std::size_t index(int x, int y, int z) const {
-    return static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(m_cells[0]) *
-               (static_cast<std::size_t>(y) +
-                static_cast<std::size_t>(m_cells[1]) * static_cast<std::size_t>(z));
+    return std::size_t(x) +
+           std::size_t(m_cells[0]) * (std::size_t(y) + std::size_t(m_cells[1]) * std::size_t(z));
   }
 
   std::size_t cellAt(const Eigen::Vector3d& place) const {
     std::array<int, 3> cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<Eigen::Index>(axis);
+      const auto a = Eigen::Index(axis);
       const double scaled = (place[a] - m_origin[a]) * m_scale;
-      cell[axis] = static_cast<int>(std::clamp(scaled, 0.0, static_cast<double>(m_cells[axis] - 1)));
+      cell[axis] = int(std::clamp(scaled, 0.0, double(m_cells[axis] - 1)));
     }
     return index(cell[0], cell[1], cell[2]);
   }
@@ -139,7 +132,7 @@ class Relaxation {
       applyMoves();
       project(false);
       if (iteration % kRestartPeriod == kRestartPeriod - 1) restartStuck();
-      progress(static_cast<double>(iteration) / m_def.maxIterations);
+      progress(double(iteration) / m_def.maxIterations);
     }
     if (m_distance.fastError() > 0) polish();
     m_packing.deepestProtrusion = *std::max_element(m_protrusion.begin(), m_protrusion.end());

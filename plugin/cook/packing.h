@@ -7,29 +7,29 @@
 #include <functional>
 #include <vector>
 
-#include "signed_distance.h"
+#include "cook/signed_distance.h"
 
 namespace rubble::cooking {
 
 struct PackingDef {
   std::size_t count = 0;
-  double radius = 0;  // [m]
+  double radius = 0;  ///< [m]
   std::uint64_t seed = 0;
-  double maxOverlap = 0;  // where the relaxation may end [2 r]
+  double maxOverlap = 0;  ///< where the relaxation may end [2 r]
   int maxIterations = 0;
 };
 
 struct Packing {
-  std::vector<Eigen::Vector3d> centres;  // fewer than wanted: no sphere of this radius fits anywhere
-  double deepestOverlap = 0;             // [2 r]
-  double deepestProtrusion = 0;          // out of the solid [m]
-  double deepestPlace = 0;  // the largest distance from the surface met while looking for room [m]
+  std::vector<Eigen::Vector3d> centres;  ///< fewer than wanted: no sphere of this radius fits anywhere
+  double deepestOverlap = 0;             ///< [2 r]
+  double deepestProtrusion = 0;          ///< out of the solid [m]
+  double deepestPlace = 0;  ///< the largest distance from the surface met while looking for room [m]
   int iterations = 0;
 };
 
-// Random start where a sphere fits, then overdamped contact moves and pushes back inside until the spheres
-// hardly overlap. The paper integrates its contact force law; at rest both end in the same state, and this
-// needs no time step. A lattice would pack faster but leaves planes of weakness.
+/// Random start where a sphere fits, then overdamped contact moves and pushes back inside until the spheres
+/// hardly overlap. The paper integrates its contact force law; at rest both end in the same state, and this
+/// needs no time step. A lattice would pack faster but leaves planes of weakness.
 Packing pack(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def,
              const std::function<void(double)>& progress);
 

@@ -6,13 +6,13 @@
 
 namespace rubble::cooking {
 
-// Sums over the tetrahedra between the triangles and `origin`, a point near the solid (it limits the
-// cancellation).
+/// Sums over the tetrahedra between the triangles and `origin`, a point near the solid (it limits the
+/// cancellation).
 class PolyhedronIntegrals {
  public:
   explicit PolyhedronIntegrals(const Eigen::Vector3d& origin) : m_origin(origin) {}
 
-  // Counter-clockwise seen from outside.
+  /// Counter-clockwise seen from outside.
   void add(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
     const Eigen::Vector3d a = p - m_origin;
     const Eigen::Vector3d b = q - m_origin;
@@ -26,8 +26,8 @@ class PolyhedronIntegrals {
 
   double volume() const { return m_volume; }  // [m^3]
   Eigen::Vector3d centroid() const { return m_origin + m_first / m_volume; }
-  // A third of the trace of the inertia tensor about the centroid, of unit mass [m^2]. The trace is twice the
-  // integral of the squared distance, since each axis misses one of three squares.
+  /// A third of the trace of the inertia tensor about the centroid, of unit mass [m^2]. The trace is twice
+  /// the integral of the squared distance, since each axis misses one of three squares.
   double gyration() const {
     const double aboutCentroid = m_second / m_volume - (m_first / m_volume).squaredNorm();
     return 2 * aboutCentroid / 3;

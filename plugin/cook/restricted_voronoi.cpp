@@ -1,15 +1,15 @@
-#include "restricted_voronoi.h"
+#include "cook/restricted_voronoi.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "contradiction.h"
-#include "polyhedron.h"
-#include "random.h"
-#include "voronoi_diagram.h"
-#include "voronoi_edges.h"
+#include "cook/contradiction.h"
+#include "cook/polyhedron.h"
+#include "cook/random.h"
+#include "cook/voronoi_diagram.h"
+#include "cook/voronoi_edges.h"
 
 namespace rubble::cooking {
 namespace {
@@ -110,8 +110,7 @@ RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eig
   std::string reason;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {
-      RestrictedVoronoi result =
-          cut(mesh, jittered(sites, jitter, seed + static_cast<std::uint64_t>(attempt)));
+      RestrictedVoronoi result = cut(mesh, jittered(sites, jitter, seed + std::uint64_t(attempt)));
       checkClosed(result);
       checkVolume(result, mesh.volume);
       return result;

@@ -13,14 +13,14 @@
 #include <span>
 #include <vector>
 
-#include "caps.h"
-#include "checked_mesh.h"
+#include "cook/caps.h"
+#include "cook/checked_mesh.h"
+#include "cook/surface_pass.h"
 #include "rubble/error.h"
-#include "surface_pass.h"
 
 namespace rubble::cooking {
 
-// Items of each cell: those of cell i are items[start[i]] to items[start[i + 1]].
+/// Items of each cell: those of cell i are items[start[i]] to items[start[i + 1]].
 struct CellLists {
   std::vector<std::uint32_t> start;
   std::vector<std::uint32_t> items;
@@ -31,24 +31,24 @@ struct CellLists {
 };
 
 struct RestrictedVoronoi {
-  std::vector<Eigen::Vector3d> sites;     // jittered [m]
-  std::vector<Eigen::Vector3d> vertices;  // [m]
-  std::vector<std::array<std::uint32_t, 4>>
-      vertexSites;  // of the cells that meet there; kNoElement behind them
+  std::vector<Eigen::Vector3d> sites;     ///< jittered [m]
+  std::vector<Eigen::Vector3d> vertices;  ///< [m]
+  /// Of the cells that meet there; kNoElement behind them.
+  std::vector<std::array<std::uint32_t, 4>> vertexSites;
   SurfacePieces surface;
   Caps caps;
-  CellLists polygonsOf;  // into surface.polygons
-  CellLists capsOf;      // into caps.caps
+  CellLists polygonsOf;  ///< into surface.polygons
+  CellLists capsOf;      ///< into caps.caps
 
   std::size_t cellCount() const { return sites.size(); }
 
-  // Calls visit(a, b, c) for the triangles of a polygon, counter-clockwise seen from outside.
+  /// Calls visit(a, b, c) for the triangles of a polygon, counter-clockwise seen from outside.
   template <class Visit>
   void visitPolygon(const SurfacePolygon& polygon, Visit&& visit) const {
     const std::uint32_t* v = surface.vertices.data() + polygon.first;
     for (std::uint32_t k = 2; k < polygon.count; ++k) visit(v[0], v[k - 1], v[k]);
   }
-  // The same for a cap, seen from outside of `cell`, one of its two.
+  /// The same for a cap, seen from outside of `cell`, one of its two.
   template <class Visit>
   void visitCap(const Cap& cap, std::uint32_t cell, Visit&& visit) const {
     for (std::uint32_t t = cap.firstTriangle; t < cap.firstTriangle + cap.triangleCount; ++t) {
@@ -67,10 +67,10 @@ struct RestrictedVoronoi {
   }
 };
 
-// Cuts the solid. The sites are moved by about `jitter` metres first, by a hash of `seed` and their index:
-// lattices and other symmetric places have cells that meet in more than four, which symbols cannot tell
-// apart. Checks that every cell is closed and that their volumes add up to the solid's; tries other jitters,
-// and throws rubble::Error when none helps.
+/// Cuts the solid. The sites are moved by about `jitter` metres first, by a hash of `seed` and their index:
+/// lattices and other symmetric places have cells that meet in more than four, which symbols cannot tell
+/// apart. Checks that every cell is closed and that their volumes add up to the solid's; tries other jitters,
+/// and throws rubble::Error when none helps.
 RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eigen::Vector3d> sites,
                                     double jitter, std::uint64_t seed, const LogFunction& log);
 

@@ -4,28 +4,28 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "checked_mesh.h"
+#include "cook/checked_mesh.h"
 
 namespace rubble::cooking {
 
 struct Distance {
-  double value;              // [m], negative inside
-  Eigen::Vector3d gradient;  // unit length or nearly; where it grows
+  double value;              ///< [m], negative inside
+  Eigen::Vector3d gradient;  ///< unit length or nearly; where it grows
 };
 
 class SignedDistance {
  public:
   virtual ~SignedDistance() = default;
-  // Fast, asked in every iteration of the packing.
+  /// Fast, asked in every iteration of the packing.
   virtual Distance fast(const Eigen::Vector3d& place) const = 0;
-  // Right to rounding.
+  /// Right to rounding.
   virtual Distance exact(const Eigen::Vector3d& place) const = 0;
-  // `fast` may be wrong by this much near edges of the surface [m]; 0: both are the same.
+  /// `fast` may be wrong by this much near edges of the surface [m]; 0: both are the same.
   virtual double fastError() const = 0;
 };
 
-// Analytic where the mesh is a box along the axes, else a grid. The grid is fine enough for elements of
-// `radius`.
+/// Analytic where the mesh is a box along the axes, else a grid. The grid is fine enough for elements of
+/// `radius`.
 std::unique_ptr<SignedDistance> signedDistance(const CheckedMesh& mesh, double radius);
 
 }  // namespace rubble::cooking

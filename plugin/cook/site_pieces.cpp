@@ -1,11 +1,11 @@
-#include "site_pieces.h"
+#include "cook/site_pieces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
-#include "polyhedron.h"
+#include "cook/polyhedron.h"
 
 namespace rubble::cooking {
 namespace {
@@ -30,8 +30,7 @@ class Components {
 
  private:
   std::size_t local(std::uint32_t vertex) const {
-    return static_cast<std::size_t>(std::lower_bound(m_vertices.begin(), m_vertices.end(), vertex) -
-                                    m_vertices.begin());
+    return std::size_t(std::lower_bound(m_vertices.begin(), m_vertices.end(), vertex) - m_vertices.begin());
   }
   std::size_t root(std::size_t v) {
     while (m_parent[v] != v) v = m_parent[v] = m_parent[m_parent[v]];

@@ -1,4 +1,4 @@
-#include "springs.h"
+#include "cook/springs.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

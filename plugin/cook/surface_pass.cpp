@@ -1,4 +1,4 @@
-#include "surface_pass.h"
+#include "cook/surface_pass.h"
 
 #include <algorithm>
 
@@ -104,14 +104,14 @@ class TriangleCutter {
   }
 
   void store(std::uint32_t triangle, std::uint32_t site) {
-    const auto first = static_cast<std::uint32_t>(m_pieces.vertices.size());
+    const auto first = std::uint32_t(m_pieces.vertices.size());
     const std::size_t count = m_polygon.size();
     for (std::size_t c = 0; c < count; ++c) {
       const std::uint32_t before = m_polygon[c == 0 ? count - 1 : c - 1].label;
       m_pieces.vertices.push_back(vertexBetween(triangle, site, before, m_polygon[c]));
       m_pieces.labels.push_back(m_polygon[c].label);
     }
-    m_pieces.polygons.push_back({triangle, site, first, static_cast<std::uint32_t>(count)});
+    m_pieces.polygons.push_back({triangle, site, first, std::uint32_t(count)});
   }
 
   // The pool's vertex at a corner of the polygon, known by the labels of the two edges that meet there.

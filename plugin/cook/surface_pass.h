@@ -8,28 +8,28 @@
 #include <unordered_map>
 #include <vector>
 
-#include "checked_mesh.h"
-#include "voronoi_diagram.h"
+#include "cook/checked_mesh.h"
+#include "cook/voronoi_diagram.h"
 
 namespace rubble::cooking {
 
-// Every vertex of every cell, once. A vertex is known by what meets there and not by where it is, so two
-// cells can never disagree about it:
-//   a mesh vertex;  mesh edge x bisector {edge, i, j};  triangle x Voronoi edge {triangle, i, j, k};  Voronoi
-//   vertex.
+/// Every vertex of every cell, once. A vertex is known by what meets there and not by where it is, so two
+/// cells can never disagree about it:
+///   a mesh vertex;  mesh edge x bisector {edge, i, j};  triangle x Voronoi edge {triangle, i, j, k}; Voronoi
+///   vertex.
 class VertexPool {
  public:
   explicit VertexPool(const CheckedMesh& mesh, const VoronoiDiagram& diagram);
 
   std::uint32_t meshVertex(std::uint32_t vertex, std::uint32_t site);
   std::uint32_t onMeshEdge(std::uint32_t edge, std::uint32_t siteA, std::uint32_t siteB);
-  // `place` is taken where the vertex is new.
+  /// `place` is taken where the vertex is new.
   std::uint32_t onTriangle(std::uint32_t triangle, std::array<std::uint32_t, 3> sites,
                            const Eigen::Vector3d& place);
   std::uint32_t voronoiVertex(std::uint32_t vertex);
 
   const std::vector<Eigen::Vector3d>& positions() const { return m_positions; }
-  // The sites whose cells meet at each vertex, ascending; kNoElement behind them.
+  /// The sites whose cells meet at each vertex, ascending; kNoElement behind them.
   const std::vector<std::array<std::uint32_t, 4>>& sites() const { return m_sites; }
 
  private:
@@ -48,27 +48,27 @@ class VertexPool {
   std::unordered_map<Key, std::uint32_t, KeyHash> m_ofKey;  // looked up only, never walked over
 };
 
-// The part of one triangle that lies in one cell: convex, counter-clockwise seen from outside.
+/// The part of one triangle that lies in one cell: convex, counter-clockwise seen from outside.
 struct SurfacePolygon {
   std::uint32_t triangle;
   std::uint32_t site;
-  std::uint32_t first;  // into SurfacePieces::vertices and ::labels
+  std::uint32_t first;  ///< into SurfacePieces::vertices and ::labels
   std::uint32_t count;
 };
 
-// Labels from here on mean "side s of the triangle"; smaller ones name the site behind that edge of the
-// polygon.
+/// Labels from here on mean "side s of the triangle"; smaller ones name the site behind that edge of the
+/// polygon.
 inline constexpr std::uint32_t kSideLabel = 0xfffffff0u;
 
 struct SurfacePieces {
-  std::vector<SurfacePolygon> polygons;  // grouped by triangle
-  std::vector<std::uint32_t> vertices;   // into the pool
-  std::vector<std::uint32_t> labels;     // of the edge that leaves the vertex
-  // Where a Voronoi edge passes the surface.
+  std::vector<SurfacePolygon> polygons;  ///< grouped by triangle
+  std::vector<std::uint32_t> vertices;   ///< into the pool
+  std::vector<std::uint32_t> labels;     ///< of the edge that leaves the vertex
+  /// Where a Voronoi edge passes the surface.
   struct Hit {
-    std::array<std::uint32_t, 3> sites;  // ascending
+    std::array<std::uint32_t, 3> sites;  ///< ascending
     std::uint32_t vertex;
-    bool leaving;  // the edge leaves the solid here, followed from VoronoiEdge::from to ::to
+    bool leaving;  ///< the edge leaves the solid here, followed from VoronoiEdge::from to ::to
   };
   std::vector<Hit> hits;
 };

@@ -1,4 +1,4 @@
-#include "triangle_tree.h"
+#include "cook/triangle_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vec
 TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh), m_order(mesh.triangles.size()) {
   std::iota(m_order.begin(), m_order.end(), 0u);
   m_nodes.reserve(2 * m_order.size());
-  build(0, static_cast<std::uint32_t>(m_order.size()));
+  build(0, std::uint32_t(m_order.size()));
 }
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
@@ -68,7 +68,7 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
     return atS != atT ? atS < atT : s < t;
   });
   build(first, count / 2);
-  m_nodes[node].first = static_cast<std::uint32_t>(m_nodes.size());
+  m_nodes[node].first = std::uint32_t(m_nodes.size());
   m_nodes[node].count = 0;
   build(first + count / 2, count - count / 2);
 }

@@ -7,17 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "checked_mesh.h"
+#include "cook/checked_mesh.h"
 
 namespace rubble::cooking {
 
-// The point of the triangle nearest to `place` [Ericson05, 5.1.5].
+/// The point of the triangle nearest to `place` [Ericson05, 5.1.5].
 Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 class TriangleTree {
  public:
-  // The mesh must outlive the tree.
+  /// The mesh must outlive the tree.
   explicit TriangleTree(const CheckedMesh& mesh);
 
   struct Closest {
@@ -25,7 +25,7 @@ class TriangleTree {
     std::uint32_t triangle;
     double squaredDistance;
   };
-  // `hint` is a triangle that may be near; a good one makes the search short.
+  /// `hint` is a triangle that may be near; a good one makes the search short.
   Closest closest(const Eigen::Vector3d& place, std::uint32_t hint = 0) const;
 
  private:

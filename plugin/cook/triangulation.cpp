@@ -1,4 +1,4 @@
-#include "triangulation.h"
+#include "cook/triangulation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -98,11 +98,11 @@ void joinHoles(FlatLoop& rim, std::vector<FlatLoop> holes) {
   while (!holes.empty()) {
     const Bridge bridge = findBridge(rim, holes, holes.size() - 1);
     FlatLoop& hole = holes.back();
-    std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(bridge.hole), hole.end());
+    std::rotate(hole.begin(), hole.begin() + std::ptrdiff_t(bridge.hole), hole.end());
     FlatLoop inserted = hole;
     inserted.push_back(hole.front());
     inserted.push_back(rim[bridge.rim]);
-    rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(bridge.rim) + 1, inserted.begin(), inserted.end());
+    rim.insert(rim.begin() + std::ptrdiff_t(bridge.rim) + 1, inserted.begin(), inserted.end());
     holes.pop_back();
   }
 }
@@ -143,7 +143,7 @@ void clipEars(FlatLoop loop, std::vector<std::array<std::uint32_t, 3>>& triangle
     const std::size_t ear = tried < n ? at % n : mostConvex(loop);
     triangles.push_back({loop[(ear + n - 1) % n].id, loop[ear].id, loop[(ear + 1) % n].id});
     if (n == 3) break;
-    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(ear));
+    loop.erase(loop.begin() + std::ptrdiff_t(ear));
     at = ear + 1;  // past the next corner: ears taken in turn give rounder triangles than a fan
   }
 }

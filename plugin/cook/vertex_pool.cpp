@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "contradiction.h"
-#include "random.h"
-#include "surface_pass.h"
+#include "cook/contradiction.h"
+#include "cook/random.h"
+#include "cook/surface_pass.h"
 
 namespace rubble::cooking {
 
@@ -21,7 +21,7 @@ VertexPool::VertexPool(const CheckedMesh& mesh, const VoronoiDiagram& diagram)
 std::uint32_t VertexPool::add(const Eigen::Vector3d& place, const std::array<std::uint32_t, 4>& sites) {
   m_positions.push_back(place);
   m_sites.push_back(sites);
-  return static_cast<std::uint32_t>(m_positions.size() - 1);
+  return std::uint32_t(m_positions.size() - 1);
 }
 
 std::uint32_t VertexPool::meshVertex(std::uint32_t vertex, std::uint32_t site) {

@@ -1,9 +1,9 @@
-#include "voronoi_diagram.h"
+#include "cook/voronoi_diagram.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "delaunay.h"
+#include "cook/delaunay.h"
 #include "rubble/asset.h"
 
 namespace rubble::cooking {
@@ -86,7 +86,7 @@ void collectNeighbours(const Tetrahedra& tetrahedra, VoronoiDiagram& diagram) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     diagram.neighbourList.insert(diagram.neighbourList.end(), list.begin(), list.end());
-    diagram.neighbourStart.push_back(static_cast<std::uint32_t>(diagram.neighbourList.size()));
+    diagram.neighbourStart.push_back(std::uint32_t(diagram.neighbourList.size()));
   }
 }
 
@@ -122,7 +122,7 @@ std::uint32_t VoronoiDiagram::nearestSite(const Eigen::Vector3d& place, std::uin
 VoronoiDiagram voronoiDiagram(std::span<const Eigen::Vector3d> sites, const Eigen::Vector3d& centre,
                               double diagonal) {
   VoronoiDiagram diagram;
-  diagram.siteCount = static_cast<std::uint32_t>(sites.size());
+  diagram.siteCount = std::uint32_t(sites.size());
   diagram.points.assign(sites.begin(), sites.end());
   for (const Eigen::Vector3d& direction : sentinelDirections())
     diagram.points.push_back(centre + kSentinelRadius * diagonal * direction);

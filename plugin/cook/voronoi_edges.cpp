@@ -1,9 +1,9 @@
-#include "voronoi_edges.h"
+#include "cook/voronoi_edges.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "contradiction.h"
+#include "cook/contradiction.h"
 namespace rubble::cooking {
 namespace {
 

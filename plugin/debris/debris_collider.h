@@ -17,8 +17,8 @@ struct DebrisHit {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();            ///< of the surface [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();           ///< unit, from the surface towards the ball
   Eigen::Vector3d surfaceVelocity = Eigen::Vector3d::Zero();  ///< of the surface at `point` [m/s]
-  double inverseMass =
-      0;  ///< of the surface's body, felt at `point` along `normal` [1/kg]; 0 if it yields to nothing
+  /// Of the surface's body, felt at `point` along `normal` [1/kg]; 0 if it yields to nothing.
+  double inverseMass = 0;
   std::uint32_t surface = kFixedSurface;  ///< kFixedSurface, or less than surfaceCount()
 };
 

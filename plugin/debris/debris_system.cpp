@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "base/hash.h"
 #include "rubble/error.h"
 
 namespace rubble::debris {
@@ -48,26 +49,6 @@ Eigen::Quaternionf turned(const Eigen::Quaternionf& orientation, const Eigen::Ve
   return (turn.cast<float>() * orientation).normalized();
 }
 
-// FNV-1a, 64 bits [Fowler, Noll, Vo].
-class Hash {
- public:
-  void add(std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte) {
-      m_value = (m_value ^ ((bits >> (8 * byte)) & 0xff)) * 0x100000001b3u;
-    }
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(float value) { add(std::uint64_t{std::bit_cast<std::uint32_t>(value)}); }
-  template <typename Vector>
-  void addAll(const Vector& vector) {
-    for (Eigen::Index i = 0; i < vector.size(); ++i) add(vector[i]);
-  }
-  std::uint64_t value() const { return m_value; }
-
- private:
-  std::uint64_t m_value = 0xcbf29ce484222325u;
-};
-
 }  // namespace
 
 DebrisSystem::DebrisSystem(const DebrisSystemDef& def)
@@ -95,7 +76,7 @@ void DebrisSystem::add(std::span<const DebrisParcel> parcels) {
 }
 
 void DebrisSystem::addOne(const DebrisParcel& parcel) {
-  const auto index = static_cast<std::uint32_t>(m_particles.size());
+  const auto index = std::uint32_t(m_particles.size());
   m_particles.push_back({.position = parcel.position,
                          .velocity = parcel.velocity,
                          .spin = parcel.spin,
@@ -111,9 +92,9 @@ void DebrisSystem::addOne(const DebrisParcel& parcel) {
                       .velocity = parcel.velocity.cast<float>(),
                       .orientation = parcel.orientation.cast<float>(),
                       .spin = parcel.spin.cast<float>(),
-                      .radius = static_cast<float>(parcel.radius),
-                      .mass = static_cast<float>(parcel.mass),
-                      .scale = static_cast<float>(parcel.scale),
+                      .radius = float(parcel.radius),
+                      .mass = float(parcel.mass),
+                      .scale = float(parcel.scale),
                       .body = parcel.body,
                       .element = parcel.element,
                       .resting = false});
@@ -189,7 +170,7 @@ bool DebrisSystem::isStray(std::uint32_t index) const {
 
 // From the back, so that what fills a hole has been looked at.
 void DebrisSystem::removeStrays() {
-  for (auto index = static_cast<std::uint32_t>(m_particles.size()); index-- > 0;) {
+  for (auto index = std::uint32_t(m_particles.size()); index-- > 0;) {
     if (isStray(index)) remove(index);
   }
 }
@@ -239,7 +220,7 @@ std::uint32_t DebrisSystem::wakeSupports(std::span<const std::uint32_t> surfaces
 
 std::uint32_t DebrisSystem::removeBody(std::uint32_t body) {
   std::uint32_t removed = 0;
-  for (auto index = static_cast<std::uint32_t>(m_particles.size()); index-- > 0;) {
+  for (auto index = std::uint32_t(m_particles.size()); index-- > 0;) {
     if (m_pieces[index].body != body) continue;
     remove(index);
     ++removed;
@@ -263,7 +244,7 @@ void DebrisSystem::remove(std::uint32_t index) {
 
 // The last piece moves into the place of a removed one.
 void DebrisSystem::fillHole(std::uint32_t index) {
-  const auto last = static_cast<std::uint32_t>(m_particles.size() - 1);
+  const auto last = std::uint32_t(m_particles.size() - 1);
   if (index != last) {
     m_particles[index] = m_particles[last];
     m_pieces[index] = m_pieces[last];
@@ -305,7 +286,7 @@ Exchange DebrisSystem::takeExchange() {
 }
 
 std::uint64_t DebrisSystem::hash() const {
-  Hash hash;
+  base::Fnv1a hash;
   for (std::size_t i = 0; i < m_particles.size(); ++i) {
     const Particle& particle = m_particles[i];
     const DebrisPiece& piece = m_pieces[i];
@@ -315,7 +296,8 @@ std::uint64_t DebrisSystem::hash() const {
     hash.addAll(piece.orientation.coeffs());
     hash.add(particle.mass);
     hash.add(piece.radius);
-    hash.add((std::uint64_t{piece.body} << 32) | piece.element);
+    hash.add(piece.body);
+    hash.add(piece.element);
     hash.add(std::uint64_t{piece.resting});
   }
   return hash.value();

@@ -19,7 +19,7 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 void sizesByNumber(const SizeLaw& law, double piecesShare, std::span<PieceSize> out) {
-  const auto count = static_cast<std::uint32_t>(out.size());
+  const auto count = std::uint32_t(out.size());
   double sum = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double radius = radiusByNumber(law, i + 1, count);
@@ -31,7 +31,7 @@ void sizesByNumber(const SizeLaw& law, double piecesShare, std::span<PieceSize> 
 }
 
 void sizesByMass(const SizeLaw& law, double piecesShare, double u, std::span<PieceSize> out) {
-  const auto count = static_cast<double>(out.size());
+  const auto count = double(out.size());
   double n = 0;
   for (PieceSize& piece : out) {
     piece = {radiusByMass(law, (n + u) / count), piecesShare / count};
@@ -71,7 +71,7 @@ double radiusByNumber(const SizeLaw& law, std::uint32_t n, std::uint32_t count) 
   // eq. (5) divided through by R_dust^-(3-m), so that no power of a micrometre overflows for a small R_dust.
   const double exponent = -(3 - law.modulus);
   const double coarse = std::pow(law.maxRadius / law.dustRadius, exponent);
-  const double mean = (static_cast<double>(count - n) + static_cast<double>(n) * coarse) / count;
+  const double mean = (double(count - n) + double(n) * coarse) / count;
   return n == count ? law.maxRadius : law.dustRadius * std::pow(mean, 1 / exponent);
 }
 
@@ -85,7 +85,7 @@ double sizeOffset(std::uint64_t seed, std::uint32_t body, std::uint32_t element)
   // double's mantissa, so 1 is never reached.
   constexpr std::uint64_t kGoldenSection = 0x9e3779b97f4a7c15;
   const std::uint64_t begin = mixed(mixed(seed) ^ mixed(~std::uint64_t{body}));
-  return static_cast<double>((begin + element * kGoldenSection) >> 11) * 0x1p-53;
+  return double((begin + element * kGoldenSection) >> 11) * 0x1p-53;
 }
 
 double pieceSizes(const SizeLaw& law, DebrisSizes mode, double u, std::span<PieceSize> out) {

@@ -33,7 +33,7 @@ void requireUsable(const Eigen::Vector3d& value, const char* name) {
   if (!isUsable(value)) throw Error(std::string("debris: ") + name + " is not finite, or larger than 1e12");
 }
 
-void validate(const CrushedElement& element, std::span<const CellFace> faces) {
+void validate(const base::CrushedElement& element, std::span<const CellFace> faces) {
   requirePositive(element.mass, "mass of the element");
   requireAtLeastZero(element.inertia, "inertia of the element");
   requirePositive(element.volume, "volume of the cell");
@@ -86,7 +86,8 @@ void Spawner::reserve(std::size_t faces, DebrisBatch& batch) {
   m_velocities.reserve(faces);
 }
 
-void Spawner::spawn(const CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch) {
+void Spawner::spawn(const base::CrushedElement& element, std::span<const CellFace> faces,
+                    DebrisBatch& batch) {
   validate(element, faces);
   makePieces(element, faces, batch);
   if (m_model.conserveDebris)
@@ -104,7 +105,8 @@ void Spawner::spawn(const CrushedElement& element, std::span<const CellFace> fac
 }
 
 // Sizes, masses, places and scattering directions: all that both readings of the paper share.
-void Spawner::makePieces(const CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch) {
+void Spawner::makePieces(const base::CrushedElement& element, std::span<const CellFace> faces,
+                         DebrisBatch& batch) {
   const SizeLaw law{element.maxRadius, m_material.dustRadius, m_material.sizeModulus};
   const double u = sizeOffset(m_seed, element.body, element.element);
   m_sizes.resize(std::max<std::size_t>(faces.size(), 1));
@@ -140,7 +142,7 @@ void Spawner::makePieces(const CrushedElement& element, std::span<const CellFace
 }
 
 // Section 3.2 to the letter.
-void Spawner::scatterFromCentre(const CrushedElement& element, DebrisBatch& batch) const {
+void Spawner::scatterFromCentre(const base::CrushedElement& element, DebrisBatch& batch) const {
   for (std::size_t n = 0; n < batch.pieces.size(); ++n) {
     batch.pieces[n].position = element.centre;
     batch.pieces[n].velocity = element.velocity + m_velocities[n];
@@ -151,7 +153,7 @@ void Spawner::scatterFromCentre(const CrushedElement& element, DebrisBatch& batc
 // `releasedEnergy` adds. The motion is a rigid one, of energy E_rigid, plus scattering without linear or
 // angular momentum, of energy E_s; the two are orthogonal, so the energies add up and E_s alone has to be
 // scaled.
-void Spawner::scatterConserving(const CrushedElement& element, DebrisBatch& batch) {
+void Spawner::scatterConserving(const base::CrushedElement& element, DebrisBatch& batch) {
   if (batch.pieces.empty()) return;
   const double share = 1 - batch.dustShare;
   const double mass = share * element.mass;

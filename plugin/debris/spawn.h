@@ -8,30 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "base/crushed_element.h"
 #include "debris/motion.h"
 #include "debris/size_distribution.h"
 #include "rubble/asset.h"
 #include "rubble/material.h"
 
 namespace rubble::debris {
-
-/// An element at the end of the substep in which eq. (4) crushed it.
-struct CrushedElement {
-  std::uint32_t body = 0;
-  std::uint32_t element = 0;
-  Eigen::Vector3d restCentre = Eigen::Vector3d::Zero();  ///< in the frame of the cell's faces [m]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();      ///< now [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< [rad/s]
-  double mass = 0;                                     ///< [kg], > 0
-  double inertia = 0;                                  ///< scalar, about the centre [kg m^2], >= 0
-  double volume = 0;                                   ///< of its clipped cell [m^3], > 0
-  double radius = 0;                                   ///< r [m], > 0
-  double maxRadius = 0;                                ///< R_max of eq. (4) [m]
-  /// What its broken springs released [J], each spring counted once: the cap on the energy of the debris.
-  double releasedEnergy = 0;
-};
 
 /// A piece at birth. It is a parcel of equal grains of radius R: air drag sees a grain, momentum the whole
 /// mass.
@@ -88,12 +71,12 @@ class Spawner {
   /// dust have at most the element's kinetic energy plus releasedEnergy. The angular momentum that the places
   /// do not carry is in the pieces' spin. Drawn at R / r_cell, r_cell = (3 V / 4 pi)^(1/3), and a ball of
   /// radius R to collisions.
-  void spawn(const CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch);
+  void spawn(const base::CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch);
 
  private:
-  void makePieces(const CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch);
-  void scatterFromCentre(const CrushedElement& element, DebrisBatch& batch) const;
-  void scatterConserving(const CrushedElement& element, DebrisBatch& batch);
+  void makePieces(const base::CrushedElement& element, std::span<const CellFace> faces, DebrisBatch& batch);
+  void scatterFromCentre(const base::CrushedElement& element, DebrisBatch& batch) const;
+  void scatterConserving(const base::CrushedElement& element, DebrisBatch& batch);
 
   Material m_material;
   Model m_model;

@@ -14,12 +14,12 @@ double DustTotals::error() const {
 }
 
 std::size_t DustGrid::cellCount() const {
-  const auto n = static_cast<std::size_t>(m_def.resolution);
+  const auto n = std::size_t(m_def.resolution);
   return n * n * n;
 }
 
 Eigen::Vector3f DustGrid::cellSize() const {
-  return (m_def.max - m_def.min) / static_cast<float>(m_def.resolution);
+  return (m_def.max - m_def.min) / float(m_def.resolution);
 }
 
 float massExtinction(float grainDensity, float grainRadius) {

@@ -50,10 +50,10 @@ void gatherSolids(const Lattice& lattice, std::span<const DustObstacle> obstacle
     for (int a = 0; a < 3; ++a) {
       const float low = (o.position[a] - reach[a] - lattice.origin[a]) / lattice.cell[a];
       const float high = (o.position[a] + reach[a] - lattice.origin[a]) / lattice.cell[a];
-      const float end = static_cast<float>(lattice.n);
+      const float end = float(lattice.n);
       inside = inside && low < end && high >= 0;
-      s.first[a] = static_cast<int>(std::clamp(low, 0.0f, end - 1));
-      s.last[a] = static_cast<int>(std::clamp(high, 0.0f, end - 1));
+      s.first[a] = int(std::clamp(low, 0.0f, end - 1));
+      s.last[a] = int(std::clamp(high, 0.0f, end - 1));
     }
     if (inside) solids.push_back(s);
   }

@@ -9,14 +9,14 @@
 
 namespace rubble::dust {
 
-// A solid and the box of cells that holds it.
+/// A solid and the box of cells that holds it.
 struct SolidCells {
   shared::DustSolid solid;
-  Eigen::Vector3i first, last;  // inclusive; never empty
+  Eigen::Vector3i first, last;  ///< inclusive; never empty
 };
 
-// Leaves out what is not finite, has no size or lies outside the grid; cuts velocities to kDustMaxSpeed.
-// Later obstacles win where two overlap.
+/// Leaves out what is not finite, has no size or lies outside the grid; cuts velocities to kDustMaxSpeed.
+/// Later obstacles win where two overlap.
 void gatherSolids(const Lattice& lattice, std::span<const DustObstacle> obstacles,
                   std::vector<SolidCells>& solids);
 

@@ -27,7 +27,7 @@ void SourceCells::gather(const Lattice& lattice, std::span<const DustSource> sou
     if (cell < 0) {
       m_outside += mass;
     } else {
-      m_order.emplace_back(cell, static_cast<int>(i));
+      m_order.emplace_back(cell, int(i));
     }
   }
   std::sort(m_order.begin(), m_order.end());
@@ -44,11 +44,8 @@ void SourceCells::gather(const Lattice& lattice, std::span<const DustSource> sou
     const double speed = v.norm();
     if (speed > double{shared::kDustMaxSpeed}) v *= double{shared::kDustMaxSpeed} / speed;
     const Eigen::Vector3f u = v.cast<float>();
-    m_cells.push_back({{u.x(), u.y(), u.z(), static_cast<float>(mass / lattice.volume())},
-                       static_cast<shared::uint>(m_order[first].first),
-                       0,
-                       0,
-                       0});
+    m_cells.push_back(
+        {{u.x(), u.y(), u.z(), float(mass / lattice.volume())}, shared::uint(m_order[first].first), 0, 0, 0});
     first = i;
   }
 }

@@ -12,22 +12,22 @@
 
 namespace rubble::dust {
 
-// What can be read from and written to a back end, in the order of Lattice::index and Lattice::face.
+/// What can be read from and written to a back end, in the order of Lattice::index and Lattice::face.
 enum class Field {
-  Velocity,    // 4 floats a cell [m/s], the fourth unused
-  Density,     // 1 float a cell [kg/m^3]
-  Air,         // 1 float a cell: 1 air, 0 solid
-  Faces,       // normal velocity of all x, then y, then z faces [m/s]; Courant numbers after transportDust
-  Divergence,  // 1 float a cell [1/s]
-  Pressure,    // 1 float a cell, times dt / density of air [m^2/s]
+  Velocity,    ///< 4 floats a cell [m/s], the fourth unused
+  Density,     ///< 1 float a cell [kg/m^3]
+  Air,         ///< 1 float a cell: 1 air, 0 solid
+  Faces,       ///< normal velocity of all x, then y, then z faces [m/s]; Courant numbers after transportDust
+  Divergence,  ///< 1 float a cell [1/s]
+  Pressure,    ///< 1 float a cell, times dt / density of air [m^2/s]
 };
 
 class Stages : public DustGrid {
  public:
   explicit Stages(const DustGridDef& def);
 
-  // dt is cut to [0, kDustMaxStep] (not a number counts as 0); with 0 the sources are added and nothing
-  // moves.
+  /// dt is cut to [0, kDustMaxStep] (not a number counts as 0); with 0 the sources are added and nothing
+  /// moves.
   void step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) final;
 
   virtual void addSources(std::span<const shared::DustSourceCell> sources) = 0;
@@ -49,8 +49,8 @@ class Stages : public DustGrid {
 
  protected:
   Lattice m_lattice;
-  double m_emitted = 0;  // [kg] since the start
-  double m_outside = 0;  // [kg] emitted outside the grid: it has left at once
+  double m_emitted = 0;  ///< [kg] since the start
+  double m_outside = 0;  ///< [kg] emitted outside the grid: it has left at once
 
  private:
   SourceCells m_sources;

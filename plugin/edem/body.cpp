@@ -73,8 +73,8 @@ void makeElements(Body<Real>& body, const BodyDef& def) {
   body.origin = def.transform * centre;
 }
 
-/// k = E A / |d0|, k_rot = E A^2 / (12 |d0|) (square face; bending and twist alike as the lattice has nu =
-/// 0).
+// k = E A / |d0|, k_rot = E A^2 / (12 |d0|) (square face; bending and twist alike as the lattice has nu =
+// 0).
 template <class Real>
 Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, double length,
                         const Material& material, const Model& model) {
@@ -112,8 +112,8 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
   body.intact.assign(body.springs.size(), 1);
 }
 
-/// Dashpots c = beta k with beta = 2 xi / omega_max: the damping ratio is xi at the highest frequency, less
-/// below it.
+// Dashpots c = beta k with beta = 2 xi / omega_max: the damping ratio is xi at the highest frequency, less
+// below it.
 template <class Real>
 void makeDashpots(Body<Real>& body) {
   std::vector<ElementRates> rates(body.elementCount());
@@ -143,8 +143,8 @@ void indexSprings(Body<Real>& body) {
   each([&](std::uint32_t i, std::uint32_t s) { body.springsOf[fill[i]++] = s; });
 }
 
-/// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D
-/// of their own.
+// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D
+// of their own.
 template <class Real>
 void makePairs(Body<Real>& body) {
   const std::size_t n = body.elementCount();

@@ -31,8 +31,8 @@ struct BodyDef {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< [rad/s]
   double massDamping = 0;                              ///< of the deformation velocity [1/s]
   bool anchored = true;                                ///< use the asset's anchors
-  std::vector<double>
-      crushEnergy;  ///< fracture energy W_I at which element I is crushed [J] (n); empty: never
+  /// Fracture energy W_I at which element I is crushed [J] (n); empty: never.
+  std::vector<double> crushEnergy;
 };
 
 /// A pair of elements whose contact distance is not simply 2 r: joined by a spring, or overlapping at rest.
@@ -83,8 +83,8 @@ struct Body {
   std::vector<Vec3<Real>> displacement;  ///< u_I [m]
   std::vector<Quat<Real>> rotation;      ///< R'_I
   std::vector<Vec3<Real>> velocity;      ///< at the half step before the positions [m/s]
-  std::vector<Vec3<Real>>
-      velocityCarry;             ///< what float addition lost of velocity (compensated summation) [m/s]
+  /// What float addition lost of velocity (compensated summation) [m/s].
+  std::vector<Vec3<Real>> velocityCarry;
   std::vector<Vec3<Real>> spin;  ///< [rad/s]
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> intact;  ///< springs, then anchors
@@ -93,8 +93,8 @@ struct Body {
   /// kJustReleased once its last anchor broke: the next contact sets it to min(r, distance), so that a break
   /// gives no kick.
   std::vector<Real> groundRange;
-  std::vector<std::uint32_t>
-      fragment;  ///< lowest element connected with I through springs; kNoElement if crushed
+  /// Lowest element connected with I through springs; kNoElement if crushed.
+  std::vector<std::uint32_t> fragment;
   std::uint32_t fragmentCount = 0;
   std::uint32_t crushedCount = 0;
   std::uint32_t brokenCount = 0;

@@ -45,8 +45,8 @@ struct Exchange {
 };
 
 struct Books {
-  Eigen::Vector3d centre =
-      Eigen::Vector3d::Zero();     ///< reference of angular momentum: the first bodies' centre of mass
+  /// Reference of angular momentum: the first bodies' centre of mass.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double diagonal = 0;             ///< of the bodies when they were added [m]
   double initialMass = 0;          ///< [kg]
   double initialMomentumSize = 0;  ///< sum m |v| [kg m/s]

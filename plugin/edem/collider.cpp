@@ -31,7 +31,7 @@ Eigen::Vector3d nearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d
   return a + t * ab;
 }
 
-/// Nearest point of a convex polygon to a point above its plane.
+// Nearest point of a convex polygon to a point above its plane.
 Eigen::Vector3d nearestOnFace(const Hull::Face& face, const Eigen::Vector3d& p) {
   const std::size_t n = face.vertices.size();
   bool over = true;

@@ -22,10 +22,10 @@ struct Hull {
 struct Collider {
   enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull };
   Kind kind = Kind::Sphere;
-  Eigen::Vector3d size =
-      Eigen::Vector3d::Ones();  ///< half extents of a box; x is a sphere's radius; a plane's normal [m]
-  double offset = 0;            ///< a plane's: normal . x [m]
-  double rounding = 0;          ///< added all round, Bullet's collision margin of hulls [m]
+  /// Half extents of a box; x is a sphere's radius; a plane's normal [m].
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();
+  double offset = 0;    ///< a plane's: normal . x [m]
+  double rounding = 0;  ///< added all round, Bullet's collision margin of hulls [m]
   std::shared_ptr<const Hull> hull;
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< in the frame of the rigid body
 

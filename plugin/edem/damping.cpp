@@ -15,7 +15,7 @@ struct RigidMotion {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();
 };
 
-/// Rigid motion of each fragment with the same linear and angular momentum.
+// Rigid motion of each fragment with the same linear and angular momentum.
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
   std::map<std::uint32_t, RigidMotion> motions;

@@ -4,7 +4,7 @@
 namespace rubble::edem {
 namespace {
 
-/// Adds (sign 1) or takes back (sign -1) what a spring does to its elements.
+// Adds (sign 1) or takes back (sign -1) what a spring does to its elements.
 template <class Real>
 void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Real sign) {
   const Spring<Real>& spring = body.springs[s];
@@ -22,7 +22,7 @@ void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Re
   if (!body.isAnchor(s)) add(spring.second, -all, -damping, load.armSecond, Real(-1));
 }
 
-/// The anchor's impulse on its element, about the books' centre.
+// The anchor's impulse on its element, about the books' centre.
 template <class Real>
 void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, double signedKick,
                 Books& books) {
@@ -33,18 +33,18 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
   books.anchors.push(signedKick, force.template cast<double>(), arm, torque.template cast<double>());
 }
 
-/// One touching pair. Forces on the second element.
+// One touching pair. Forces on the second element.
 template <class Real>
 struct PairTouch {
   bool touches = false;
   ContactForce<Real> force;
-  Vec3<Real> armFirst, armSecond;  ///< centre -> contact point [m]
-  Real energy = 0;                 ///< elastic [J]
-  Real power = 0;                  ///< of the elastic force [W]
+  Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
+  Real energy = 0;                 // elastic [J]
+  Real power = 0;                  // of the elastic force [W]
 };
 
-/// Contact distance D of a pair, DESIGN 3.2: own to joined pairs and to pairs overlapping at rest, and
-/// growing with their distance.
+// Contact distance D of a pair, DESIGN 3.2: own to joined pairs and to pairs overlapping at rest, and
+// growing with their distance.
 template <class Real>
 Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance) {
   const Real free = a.radius + b.radius;

@@ -7,8 +7,8 @@
 namespace rubble::edem {
 namespace {
 
-/// v + dv with what the addition lost kept in `carry` (Kahan). In float, gravity's tiny kicks would else be
-/// rounded the same way hundreds of times in a row.
+// v + dv with what the addition lost kept in `carry` (Kahan). In float, gravity's tiny kicks would else be
+// rounded the same way hundreds of times in a row.
 template <class Real>
 Vec3<Real> addCompensated(const Vec3<Real>& v, const Vec3<Real>& dv, Vec3<Real>& carry) {
   const Vec3<Real> wanted = dv + carry;
@@ -17,7 +17,7 @@ Vec3<Real> addCompensated(const Vec3<Real>& v, const Vec3<Real>& dv, Vec3<Real>&
   return sum;
 }
 
-/// Rotation by w h of the unit quaternion q, exact for constant w to fifth order in |w| h; normalised.
+// Rotation by w h of the unit quaternion q, exact for constant w to fifth order in |w| h; normalised.
 template <class Real>
 Quat<Real> rotated(const Quat<Real>& q, const Vec3<Real>& w, Real h) {
   const Vec3<Real> half = (Real(0.5) * h) * w;
@@ -87,24 +87,26 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
 template <class Real>
 void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report) {
   for (const std::uint32_t i : body.crushing) {
-    CrushedElement c;
+    base::CrushedElement c;
     c.body = body.id;
     c.element = i;
-    c.position = body.worldPosition(i);
+    c.restCentre = body.asset->positions[i];
+    c.centre = body.worldPosition(i);
     c.velocity = body.velocity[i].template cast<double>();
     c.spin = body.spin[i].template cast<double>();
     c.orientation = body.rotation[i].template cast<double>() * body.turn;
     c.mass = body.mass[i];
     c.inertia = body.inertia[i];
+    c.volume = body.asset->volumes[i];
+    c.radius = body.asset->radius;
     c.fractureEnergy = double(body.load[i]);
-    c.released = 0;
     for (std::size_t k = brokenBegin; k < report.broken.size(); ++k) {
       const BrokenSpring& b = report.broken[k];
       if (b.body != body.id) continue;
       const Spring<Real>& s = body.springs[b.spring];
       if (s.first != i && s.second != i) continue;
       const bool both = !body.isAnchor(b.spring) && body.leaving[s.first] && body.leaving[s.second];
-      c.released += both ? 0.5 * b.energy : b.energy;
+      c.releasedEnergy += both ? 0.5 * b.energy : b.energy;
     }
     report.crushed.push_back(c);
   }

@@ -27,8 +27,8 @@ bool everyFragmentAnchored(const Body<Real>& body) {
   return true;
 }
 
-/// Stiffness of the springs at rest: dx = u_K - u_I - (theta_I + theta_K) x d / 2, relative rotation theta_K
-/// - theta_I.
+// Stiffness of the springs at rest: dx = u_K - u_I - (theta_I + theta_K) x d / 2, relative rotation theta_K
+// - theta_I.
 template <class Real>
 Matrix assemble(const Body<Real>& body) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -70,7 +70,7 @@ Matrix assemble(const Body<Real>& body) {
   return k;
 }
 
-/// Force and torque on every element in the present state, gravity included; all in double.
+// Force and torque on every element in the present state, gravity included; all in double.
 template <class Real>
 Vector residualForce(const Body<Real>& body, const Eigen::Vector3d& gravity,
                      const std::vector<Vec3<double>>& u, const std::vector<Quat<double>>& rotation) {

@@ -8,12 +8,12 @@
 namespace rubble::edem {
 namespace {
 
-/// Share of m / h^2 that a contact's stiffness may reach against a light rigid body of mass m. 1 lets a body
-/// of 1e-4 element masses gain energy a hundredfold, 0.02 none (plugin/README.md, "Rigid
-/// bodies in the substeps").
+// Share of m / h^2 that a contact's stiffness may reach against a light rigid body of mass m. 1 lets a body
+// of 1e-4 element masses gain energy a hundredfold, 0.02 none (plugin/README.md, "Rigid
+// bodies in the substeps").
 constexpr double kLightBodyShare = 0.02;
 
-/// Surface nearest to a world point over all parts of a proxy.
+// Surface nearest to a world point over all parts of a proxy.
 SurfacePoint nearestPart(const RigidProxy& proxy, const Eigen::Vector3d& world) {
   const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
   SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};

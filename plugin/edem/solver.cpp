@@ -1,10 +1,11 @@
 #include "edem/solver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
+#include "base/hash.h"
+#include "base/stopwatch.h"
 #include "edem/damping.h"
 #include "edem/pair_lists.h"
 #include "edem/prestress.h"
@@ -15,25 +16,12 @@
 namespace rubble::edem {
 namespace {
 
-/// Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
+// Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
 constexpr double kSkinRadii = 0.5;
-/// An element may not pass more than this share of its radius in a substep, or thin things are missed.
+// An element may not pass more than this share of its radius in a substep, or thin things are missed.
 constexpr double kTravelShare = 0.25;
-/// Pairs nearer than this many contact distances count as touching when the substep is chosen.
+// Pairs nearer than this many contact distances count as touching when the substep is chosen.
 constexpr double kNearContact = 1.1;
-
-class Fnv {
- public:
-  template <class T>
-  void add(std::span<const T> values) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    for (std::size_t i = 0; i < values.size_bytes(); ++i) m_state = (m_state ^ bytes[i]) * 1099511628211ull;
-  }
-  std::uint64_t value() const { return m_state; }
-
- private:
-  std::uint64_t m_state = 14695981039346656037ull;
-};
 
 template <class Real>
 class SolverOf final : public Solver {
@@ -146,18 +134,18 @@ class SolverOf final : public Solver {
   }
 
   std::uint64_t hash() const override {
-    Fnv fnv;
+    base::Fnv1a hash;
     for (const auto& b : m_bodies) {
-      fnv.add(std::span<const Vec3<Real>>(b->displacement));
-      fnv.add(std::span<const Vec3<Real>>(b->velocity));
-      fnv.add(std::span<const Vec3<Real>>(b->spin));
-      fnv.add(std::span<const Quat<Real>>(b->rotation));
-      fnv.add(std::span<const std::uint8_t>(b->alive));
-      fnv.add(std::span<const std::uint8_t>(b->intact));
-      fnv.add(std::span<const double>(b->origin.data(), 3));
-      fnv.add(std::span<const double>(b->turn.coeffs().data(), 4));
+      hash.add(std::as_bytes(std::span<const Vec3<Real>>(b->displacement)));
+      hash.add(std::as_bytes(std::span<const Vec3<Real>>(b->velocity)));
+      hash.add(std::as_bytes(std::span<const Vec3<Real>>(b->spin)));
+      hash.add(std::as_bytes(std::span<const Quat<Real>>(b->rotation)));
+      hash.add(std::as_bytes(std::span<const std::uint8_t>(b->alive)));
+      hash.add(std::as_bytes(std::span<const std::uint8_t>(b->intact)));
+      hash.add(std::as_bytes(std::span<const double>(b->origin.data(), 3)));
+      hash.add(std::as_bytes(std::span<const double>(b->turn.coeffs().data(), 4)));
     }
-    return fnv.value();
+    return hash.value();
   }
 
  private:
@@ -196,7 +184,7 @@ class SolverOf final : public Solver {
     return fastest;
   }
 
-  /// Elastic energy of a body as it stands: springs, and the contacts among its elements that are listed [J].
+  // Elastic energy of a body as it stands: springs, and the contacts among its elements that are listed [J].
   double elasticOf(const Body<Real>& body) {
     Books probe;
     Body<Real> copy = body;
@@ -231,8 +219,8 @@ class SolverOf final : public Solver {
   std::string m_failure;
 };
 
-/// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed
-/// afterwards.
+// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed
+// afterwards.
 template <class Real>
 void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) {
   m_report.broken.clear();
@@ -312,17 +300,15 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
 
 template <class Real>
 void SolverOf<Real>::list() {
-  const auto begin = std::chrono::steady_clock::now();
+  const base::ScopeTimer timer(m_report.listing);
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& body : m_bodies) radius = std::min(radius, double(body->radius));
   m_lists.build(m_bodies, m_bodies.empty() ? 0 : kSkinRadii * radius);
   m_rigid.build(m_bodies, m_lists);
   m_listsStale = false;
-  m_report.listing +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Rates of each element in its springs and at the rigid bodies near it.
+// Rates of each element in its springs and at the rigid bodies near it.
 template <class Real>
 void SolverOf<Real>::gatherRates(double step) {
   m_rates.resize(m_bodies.size());
@@ -335,7 +321,7 @@ void SolverOf<Real>::gatherRates(double step) {
   }
 }
 
-/// Pairs that touch or nearly do, and their contacts' part in the rates of both elements.
+// Pairs that touch or nearly do, and their contacts' part in the rates of both elements.
 template <class Real>
 void SolverOf<Real>::gatherTouching() {
   m_touching.clear();

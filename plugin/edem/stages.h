@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/crushed_element.h"
 #include "edem/body.h"
 #include "edem/books.h"
 #include "edem/pair_lists.h"
@@ -18,23 +19,14 @@ struct BrokenSpring {
   Eigen::Vector3d position;  ///< [m]
 };
 
-/// All that crushing needs to know of an element when it leaves.
-struct CrushedElement {
-  std::uint32_t body, element;
-  Eigen::Vector3d position, velocity, spin;
-  Eigen::Quaterniond orientation;
-  double mass, inertia;
-  double fractureEnergy;  ///< W_I, eq. (3) [J]
-  double released;  ///< its share of what its springs released when it crushed, each spring counted once [J]
-};
-
 /// What one tick did, besides moving things.
 struct TickReport {
   int substeps = 0;
   double substep = 0;  ///< h [s]
   double listing = 0;  ///< wall time spent on candidate lists [ms]
   std::vector<BrokenSpring> broken;
-  std::vector<CrushedElement> crushed;
+  /// Without maxRadius, which is the law of another layer.
+  std::vector<base::CrushedElement> crushed;
 };
 
 /// Sets forces, loads and overload lists to nothing and refreshes positions.

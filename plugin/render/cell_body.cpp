@@ -45,7 +45,7 @@ CellBody::CellBody(const Asset& asset, CellJoining joining, const CellColours& c
   m_cellRadii.reserve(asset.elementCount());
   for (std::size_t e = 0; e < asset.elementCount(); ++e) {
     centres.emplace_back(asset.positions[e].x(), asset.positions[e].y(), asset.positions[e].z(), 0);
-    m_cellRadii.push_back(static_cast<float>(std::cbrt(3 * asset.volumes[e] / (4 * std::numbers::pi))));
+    m_cellRadii.push_back(float(std::cbrt(3 * asset.volumes[e] / (4 * std::numbers::pi))));
   }
   m_corners.upload(m_mesh.corners(), GL_STATIC_DRAW);
   m_vertices.upload(m_mesh.vertices(), GL_STATIC_DRAW);
@@ -132,7 +132,7 @@ void CellBody::draw() const {
   m_poses.bindBase(GL_SHADER_STORAGE_BUFFER, RUBBLE_POSES_BUFFER);
   m_masks.bindBase(GL_SHADER_STORAGE_BUFFER, RUBBLE_MASKS_BUFFER);
   glBindVertexArray(m_vertexArray.id());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * m_visible.size()), GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, GLsizei(3 * m_visible.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace rubble::render

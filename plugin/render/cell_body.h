@@ -36,7 +36,7 @@ class CellBody {
   const Buffer& corners() const { return m_corners; }
   /// All triangles, grouped by cell; behind them the coarse ones, kCoarseTriangles a cell.
   const Buffer& allTriangles() const { return m_allTriangles; }
-  std::uint32_t firstCoarseTriangle() const { return static_cast<std::uint32_t>(m_mesh.triangles().size()); }
+  std::uint32_t firstCoarseTriangle() const { return std::uint32_t(m_mesh.triangles().size()); }
   float coarseScale(std::size_t element) const { return m_mesh.coarseScale(element); }
   void bindMesh() const;  ///< rest centres and cell vertices
 

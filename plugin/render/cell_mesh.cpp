@@ -23,7 +23,7 @@ constexpr float kMostCoarseScale = 1.6f;  // of a flat cell's octahedron
 
 std::uint32_t packNormal(const Eigen::Vector3f& normal, bool inner) {
   const auto ten = [](float x) {
-    return static_cast<std::uint32_t>(std::lround(std::clamp(x, -1.f, 1.f) * 511.f)) & 1023u;
+    return std::uint32_t(std::lround(std::clamp(x, -1.f, 1.f) * 511.f)) & 1023u;
   };
   return ten(normal.x()) | ten(normal.y()) << 10 | ten(normal.z()) << 20 | (inner ? 1u : 0u) << 30;
 }
@@ -34,7 +34,7 @@ unsigned placeOf(const CellVertex& vertex, std::uint32_t element) {
     throw Error("asset: corner of cell " + std::to_string(element) +
                 ": its vertex does not list that element");
   }
-  return static_cast<unsigned>(it - vertex.elements.begin());
+  return unsigned(it - vertex.elements.begin());
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::uint32_t CellMesh::corner(const Asset& asset, std::uint32_t assetCorner, bo
   if (copy == kNoCorner) {
     const CellCorner& source = asset.corners[assetCorner];
     const unsigned place = placeOf(asset.vertices[source.vertex], source.element);
-    copy = static_cast<std::uint32_t>(m_corners.size());
+    copy = std::uint32_t(m_corners.size());
     m_corners.push_back({source.vertex * 4 + place, packNormal(source.normal, inner)});
   }
   return copy;
@@ -104,8 +104,7 @@ void CellMesh::addCoarse(const Asset& asset, std::uint32_t element,
     volume += a.cross(b).dot(position(triangle[2]) - centre) / 6;
     m_coarse.push_back(triangle);
   }
-  const float ratio =
-      static_cast<float>(asset.volumes[element]) / std::max(volume, std::numeric_limits<float>::min());
+  const float ratio = float(asset.volumes[element]) / std::max(volume, std::numeric_limits<float>::min());
   m_coarseScales.push_back(std::min(std::cbrt(ratio), kMostCoarseScale));
 }
 
@@ -136,7 +135,7 @@ std::uint16_t CellMesh::placesAcross(const Asset& asset, std::uint32_t triangle,
   if (across == kNoElement) return kNothingAcross;
   unsigned places = 0;
   for (unsigned c = 0; c < 3; ++c) places |= placeOf(*v[c], across) << (4 * c);
-  return static_cast<std::uint16_t>(places);
+  return std::uint16_t(places);
 }
 
 // Both sides coincide when at all three corners the copies of both elements follow the same set.

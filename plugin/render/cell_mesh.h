@@ -60,8 +60,8 @@ class CellMesh {
   std::vector<std::array<std::uint32_t, 3>> m_coarse;
   std::vector<float> m_coarseScales;
   std::vector<std::uint32_t> m_owners;  // element of each triangle
-  std::vector<std::uint16_t>
-      m_placesAcross;  // nibble a corner: place of the element behind the face at that corner's vertex
+  /// Nibble a corner: place of the element behind the face at that corner's vertex.
+  std::vector<std::uint16_t> m_placesAcross;
   std::array<std::vector<std::uint32_t>, 2> m_cornerOf;  // while building: asset corner -> outer, inner copy
 };
 

@@ -20,10 +20,10 @@ void describeInstances(std::size_t rotation, std::size_t element) {
   glVertexAttribFormat(RUBBLE_PLACE_ATTRIBUTE, 4, GL_FLOAT, GL_FALSE, 0);
   glVertexAttribBinding(RUBBLE_PLACE_ATTRIBUTE, 1);
   glEnableVertexAttribArray(RUBBLE_ROTATION_ATTRIBUTE);
-  glVertexAttribFormat(RUBBLE_ROTATION_ATTRIBUTE, 4, GL_FLOAT, GL_FALSE, static_cast<GLuint>(rotation));
+  glVertexAttribFormat(RUBBLE_ROTATION_ATTRIBUTE, 4, GL_FLOAT, GL_FALSE, GLuint(rotation));
   glVertexAttribBinding(RUBBLE_ROTATION_ATTRIBUTE, 1);
   glEnableVertexAttribArray(RUBBLE_ELEMENT_ATTRIBUTE);
-  glVertexAttribIFormat(RUBBLE_ELEMENT_ATTRIBUTE, 1, GL_UNSIGNED_INT, static_cast<GLuint>(element));
+  glVertexAttribIFormat(RUBBLE_ELEMENT_ATTRIBUTE, 1, GL_UNSIGNED_INT, GLuint(element));
   glVertexAttribBinding(RUBBLE_ELEMENT_ATTRIBUTE, 1);
   glVertexBindingDivisor(1, 1);
 }
@@ -105,8 +105,7 @@ void DebrisBatch::draw(const CellBody& body) const {
   body.bindMesh();
   glBindVertexArray(m_vertexArray.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, m_commandBuffer.id());
-  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(m_commands.size()),
-                              0);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, GLsizei(m_commands.size()), 0);
 }
 
 }  // namespace rubble::render

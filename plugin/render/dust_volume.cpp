@@ -11,7 +11,7 @@ namespace rubble::render {
 namespace {
 
 GLuint groups(int items, int size) {
-  return static_cast<GLuint>((items + size - 1) / size);
+  return GLuint((items + size - 1) / size);
 }
 
 TextureName makeVolume(GLenum format, int n, GLint edge, const std::array<float, 4>& border) {
@@ -54,7 +54,7 @@ DustLightBox dustLightBox(const Eigen::AlignedBox3f& grid, const Eigen::Vector3f
     m(row, axis) = -slope / extent;
     m(row, 3) = (sunny * slope - low) / extent;
   }
-  const float stride = grid.sizes()[axis] / (std::abs(toSun[axis]) * static_cast<float>(slices));
+  const float stride = grid.sizes()[axis] / (std::abs(toSun[axis]) * float(slices));
   return {m, Eigen::Matrix4f(m.cast<double>().inverse().cast<float>()), stride};
 }
 
@@ -83,7 +83,7 @@ bool DustVolume::update(const DustGrid& grid, const DustLook& look) {
     m_density.upload(std::span<const float>(m_cpuDensity), GL_STREAM_DRAW);
     m_density.bindBase(GL_SHADER_STORAGE_BUFFER, RUBBLE_DENSITY_BUFFER);
   }
-  const auto top = static_cast<std::uint32_t>(n);
+  const auto top = std::uint32_t(n);
   const std::array<std::uint32_t, 8> empty{top, top, top, 0, 0, 0, 0, 0};
   m_bounds.upload(std::span<const std::uint32_t>(empty), GL_DYNAMIC_DRAW);
   m_bounds.bindBase(GL_SHADER_STORAGE_BUFFER, RUBBLE_DUST_BOUNDS_BUFFER);
@@ -103,7 +103,7 @@ void DustVolume::describe(const DustGrid& grid, const DustLook& look, int steps,
       dustLightBox(Eigen::AlignedBox3f(low, high), frame.sunDirection.head<3>(), m_resolution);
   frame.worldToDustLight = box.worldToLight;
   frame.dustLightToWorld = box.lightToWorld;
-  frame.dustMin = withW(low, static_cast<float>(steps));
+  frame.dustMin = withW(low, float(steps));
   frame.dustMax = withW(high, 1);
   frame.dustColour = withW(look.colour, box.stride);
 }

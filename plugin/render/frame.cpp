@@ -85,7 +85,7 @@ shared::Frame makeFrame(const FrameDef& def) {
   check(def);
   const Camera& camera = *def.camera;
   const Lighting& light = *def.lighting;
-  const auto width = static_cast<float>(def.target.width), height = static_cast<float>(def.target.height);
+  const auto width = float(def.target.width), height = float(def.target.height);
   const Eigen::Vector3f toSun = light.sunDirection.normalized();
   shared::Frame frame{};
   frame.viewProjection = camera.projection(width / height) * camera.view();
@@ -96,7 +96,7 @@ shared::Frame makeFrame(const FrameDef& def) {
   frame.eye = withW(camera.eye, 1);
   const float texel = 1 / (std::min(frame.worldToShadow.block<1, 3>(0, 0).norm(),
                                     frame.worldToShadow.block<1, 3>(1, 0).norm()) *
-                           static_cast<float>(def.shadowMapSize));
+                           float(def.shadowMapSize));
   frame.sunDirection = withW(toSun, kNormalOffsetTexels * texel);
   frame.sunColour = withW(light.sunColour, 0);
   frame.skyAmbient = withW(light.skyAmbient, 0);

@@ -38,15 +38,15 @@ FrameTarget Framebuffer::target() const {
 
 Image Framebuffer::readPixels() const {
   Image image{m_impl->width, m_impl->height, {}};
-  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image.width);
-  image.pixels.resize(row * static_cast<std::size_t>(image.height));
+  const std::size_t row = std::size_t{4} * std::size_t(image.width);
+  image.pixels.resize(row * std::size_t(image.height));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, m_impl->framebuffer.id());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
   render::checkGl("reading a picture");
   // OpenGL's first row is the lowest.
-  const auto rowAt = [&](int y) { return image.pixels.begin() + static_cast<std::ptrdiff_t>(row) * y; };
+  const auto rowAt = [&](int y) { return image.pixels.begin() + std::ptrdiff_t(row) * y; };
   for (int y = 0; y < image.height / 2; ++y) {
     std::swap_ranges(rowAt(y), rowAt(y + 1), rowAt(image.height - 1 - y));
   }

@@ -63,16 +63,15 @@ void Buffer::upload(std::span<const std::byte> bytes, GLenum usage) {
     // bindings.
     const std::size_t wanted = m_capacity == 0 ? bytes.size() : bytes.size() + bytes.size() / 2;
     m_capacity = wanted < 16 ? 16 : wanted;
-    glBufferData(kUploadTarget, static_cast<GLsizeiptr>(m_capacity), nullptr, usage);
+    glBufferData(kUploadTarget, GLsizeiptr(m_capacity), nullptr, usage);
     checkGl("storage for a buffer");
   }
-  if (!bytes.empty()) glBufferSubData(kUploadTarget, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  if (!bytes.empty()) glBufferSubData(kUploadTarget, 0, GLsizeiptr(bytes.size()), bytes.data());
 }
 
 void Buffer::write(std::size_t offset, std::span<const std::byte> bytes) {
   glBindBuffer(kUploadTarget, m_name.id());
-  glBufferSubData(kUploadTarget, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
-                  bytes.data());
+  glBufferSubData(kUploadTarget, GLintptr(offset), GLsizeiptr(bytes.size()), bytes.data());
 }
 
 void Buffer::bindBase(GLenum target, GLuint index) const {
@@ -88,8 +87,8 @@ TextureName makeTexture2d(const TextureDef& def) {
   } else {
     glBindTexture(GL_TEXTURE_2D, texture.id());
     glTexStorage2D(GL_TEXTURE_2D, 1, def.format, def.width, def.height);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(def.filter));
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(def.filter));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GLint(def.filter));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GLint(def.filter));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   }
@@ -104,7 +103,7 @@ FramebufferName makeFramebuffer(const char* what, std::span<const GLuint> colour
   const GLenum target = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
   std::array<GLenum, kMaxColours> buffers{};
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    buffers[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    buffers[i] = GL_COLOR_ATTACHMENT0 + GLenum(i);
     glFramebufferTexture2D(GL_FRAMEBUFFER, buffers[i], target, colours[i], 0);
   }
   if (depth != 0) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target, depth, 0);
@@ -112,7 +111,7 @@ FramebufferName makeFramebuffer(const char* what, std::span<const GLuint> colour
     glDrawBuffer(GL_NONE);
     glReadBuffer(GL_NONE);
   } else {
-    glDrawBuffers(static_cast<GLsizei>(colours.size()), buffers.data());
+    glDrawBuffers(GLsizei(colours.size()), buffers.data());
   }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {

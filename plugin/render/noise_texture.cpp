@@ -24,7 +24,7 @@ float knot(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t octa
     h = (h ^ (h >> 13)) * 0xc2b2ae35u;
     h ^= h >> 16;
   }
-  return static_cast<float>(h >> 8) / static_cast<float>(0xffffff);
+  return float(h >> 8) / float(0xffffff);
 }
 
 float octaveAt(int x, int y, int z, std::uint32_t octave) {
@@ -34,9 +34,9 @@ float octaveAt(int x, int y, int z, std::uint32_t octave) {
   std::array<std::uint32_t, 3> low{}, high{};
   std::array<float, 3> part{};
   for (unsigned a = 0; a < 3; ++a) {
-    low[a] = static_cast<std::uint32_t>(at[a] / cell);
-    high[a] = static_cast<std::uint32_t>((at[a] / cell + 1) % knots);
-    const float t = (static_cast<float>(at[a] % cell) + 0.5f) / static_cast<float>(cell);
+    low[a] = std::uint32_t(at[a] / cell);
+    high[a] = std::uint32_t((at[a] / cell + 1) % knots);
+    const float t = (float(at[a] % cell) + 0.5f) / float(cell);
     part[a] = t * t * (3 - 2 * t);
   }
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -53,12 +53,12 @@ float octaveAt(int x, int y, int z, std::uint32_t octave) {
 }
 
 std::size_t index(int x, int y, int z) {
-  const auto wrap = [](int i) { return static_cast<std::size_t>((i + kSize) % kSize); };
+  const auto wrap = [](int i) { return std::size_t((i + kSize) % kSize); };
   return (wrap(z) * kSize + wrap(y)) * kSize + wrap(x);
 }
 
 std::uint8_t toByte(float x) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.f, 1.f) * 255));
+  return std::uint8_t(std::lround(std::clamp(x, 0.f, 1.f) * 255));
 }
 
 }  // namespace

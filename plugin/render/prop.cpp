@@ -5,9 +5,7 @@
 namespace rubble::render {
 
 Prop::Prop(const Shape& shape, const PropLook& look)
-    : m_look(look),
-      m_vertexArray(makeVertexArray()),
-      m_indices(static_cast<GLsizei>(3 * shape.triangles.size())) {
+    : m_look(look), m_vertexArray(makeVertexArray()), m_indices(GLsizei(3 * shape.triangles.size())) {
   m_vertices.upload(std::span<const ShapeVertex>(shape.vertices), GL_STATIC_DRAW);
   m_triangles.upload(std::span<const std::array<std::uint32_t, 3>>(shape.triangles), GL_STATIC_DRAW);
   glBindVertexArray(m_vertexArray.id());

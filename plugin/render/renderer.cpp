@@ -1,9 +1,9 @@
 // The frame: shadow map, light in the dust, solids, sky, dust, tone curve.
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "base/stopwatch.h"
 #include "render/cell_body.h"
 #include "render/debris_batch.h"
 #include "render/dust_volume.h"
@@ -124,8 +124,7 @@ struct Renderer::Impl {
   Body& body(BodyId id, const char* caller) {
     const auto it = bodies.find(id);
     if (it == bodies.end()) {
-      throw Error(std::string(caller) + ": there is no body " +
-                  std::to_string(static_cast<std::uint32_t>(id)));
+      throw Error(std::string(caller) + ": there is no body " + std::to_string(std::uint32_t(id)));
     }
     return it->second;
   }
@@ -139,11 +138,10 @@ struct Renderer::Impl {
   void timed(double& milliseconds, const Work& work) const {
     if (!def.measurePasses) return work();
     glFinish();
-    const auto start = std::chrono::steady_clock::now();
+    base::Stopwatch watch;
     work();
     glFinish();
-    milliseconds +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    milliseconds += watch.lap();
   }
 
   Eigen::AlignedBox3f shadowBounds() const;
@@ -194,8 +192,7 @@ void Renderer::Impl::upload(const Camera& camera, const Lighting& lighting, cons
   const Eigen::AlignedBox3f casters = lighting.shadowBounds.value_or(shadowBounds());
   shared::Frame frame = makeFrame({&camera, &lighting, target, casters, def.shadowMapSize});
   scene.resize(target.width, target.height);
-  const PieceView view{camera.eye,
-                       static_cast<float>(target.height) / (2 * std::tan(camera.verticalFov / 2))};
+  const PieceView view{camera.eye, float(target.height) / (2 * std::tan(camera.verticalFov / 2))};
   counts = {};
   for (auto& [id, body] : bodies) {
     body.debris.prepare(body.cells, view);
@@ -380,15 +377,14 @@ void Renderer::setPropPose(PropId prop, const Eigen::Vector3f& position,
                            const Eigen::Quaternionf& orientation) {
   const auto it = m_impl->props.find(prop);
   if (it == m_impl->props.end()) {
-    throw Error("Renderer::setPropPose: there is no prop " +
-                std::to_string(static_cast<std::uint32_t>(prop)));
+    throw Error("Renderer::setPropPose: there is no prop " + std::to_string(std::uint32_t(prop)));
   }
   it->second.setPose(position, orientation);
 }
 
 void Renderer::removeProp(PropId prop) {
   if (m_impl->props.erase(prop) == 0) {
-    throw Error("Renderer::removeProp: there is no prop " + std::to_string(static_cast<std::uint32_t>(prop)));
+    throw Error("Renderer::removeProp: there is no prop " + std::to_string(std::uint32_t(prop)));
   }
 }
 

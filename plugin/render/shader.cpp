@@ -33,7 +33,7 @@ void splice(const std::string& directory, const std::string& file, int depth, st
 std::string shaderLog(GLuint shader) {
   GLint length = 0;
   glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length), '\0');
+  std::string log(std::size_t(length), '\0');
   if (length > 0) glGetShaderInfoLog(shader, length, nullptr, log.data());
   return log;
 }
@@ -41,7 +41,7 @@ std::string shaderLog(GLuint shader) {
 std::string programLog(GLuint program) {
   GLint length = 0;
   glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length), '\0');
+  std::string log(std::size_t(length), '\0');
   if (length > 0) glGetProgramInfoLog(program, length, nullptr, log.data());
   return log;
 }

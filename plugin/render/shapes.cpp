@@ -31,8 +31,7 @@ UnitSphere icosahedron() {
 void split(UnitSphere& s) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [it, isNew] =
-        middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(s.points.size()));
+    const auto [it, isNew] = middles.try_emplace(std::minmax(a, b), std::uint32_t(s.points.size()));
     if (isNew) s.points.push_back(Eigen::Vector3f(s.points[a] + s.points[b]).normalized());
     return it->second;
   };
@@ -60,7 +59,7 @@ Shape flatShape(std::span<const Eigen::Vector3f> vertices, std::span<const Trian
   for (const auto& [a, b, c] : triangles) {
     const Eigen::Vector3f normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
     if (!(normal.squaredNorm() > 0)) continue;
-    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+    const auto first = std::uint32_t(shape.vertices.size());
     for (const std::uint32_t v : {a, b, c}) shape.vertices.push_back({vertices[v], normal.normalized()});
     shape.triangles.push_back({first, first + 1, first + 2});
   }

@@ -34,8 +34,7 @@ constexpr std::array<CellMask, kJointSets> makeTable(bool transitive) {
         }
       }
     }
-    for (unsigned i = 0; i < 4; ++i)
-      table[joints] = static_cast<CellMask>(table[joints] | follows[i] << (4 * i));
+    for (unsigned i = 0; i < 4; ++i) table[joints] = CellMask(table[joints] | follows[i] << (4 * i));
   }
   return table;
 }
@@ -52,7 +51,7 @@ Pair ordered(std::uint32_t a, std::uint32_t b) {
 // Index of a pair in a sorted list, or kNoPair.
 std::uint32_t find(std::span<const Pair> sorted, const Pair& pair) {
   const auto it = std::lower_bound(sorted.begin(), sorted.end(), pair);
-  return it != sorted.end() && *it == pair ? static_cast<std::uint32_t>(it - sorted.begin()) : kNoPair;
+  return it != sorted.end() && *it == pair ? std::uint32_t(it - sorted.begin()) : kNoPair;
 }
 
 // Rows from (row, item) entries; rows keep ascending items, twins are dropped.
@@ -100,7 +99,7 @@ void CellWeights::findPairs(const Asset& asset) {
   without.erase(std::unique(without.begin(), without.end()), without.end());
   if (m_joining == CellJoining::Direct) without.clear();
 
-  const auto springs = static_cast<std::uint32_t>(m_springs.size());
+  const auto springs = std::uint32_t(m_springs.size());
   std::vector<Pair> pairVertex;
   m_vertexPairs.resize(asset.vertices.size());
   for (std::uint32_t v = 0; v < asset.vertices.size(); ++v) {
@@ -141,7 +140,7 @@ void CellWeights::findBridges(const Asset& asset, std::span<const Pair> pairs) {
       if (s == kNoPair || t == kNoPair) continue;
       m_bridges.items.insert(m_bridges.items.end(), {s, t});
     }
-    m_bridges.first.push_back(static_cast<std::uint32_t>(m_bridges.items.size()));
+    m_bridges.first.push_back(std::uint32_t(m_bridges.items.size()));
   }
 }
 
@@ -179,7 +178,7 @@ bool CellWeights::update(std::span<const std::uint8_t> springsIntact, std::span<
     return springsIntact[s] != 0 && poses[a].alive > 0 && poses[b].alive > 0;
   };
   // Springs first, all of them: a bridged pair looks at two.
-  const auto springs = static_cast<std::uint32_t>(m_springs.size());
+  const auto springs = std::uint32_t(m_springs.size());
   bool any = false;
   for (std::uint32_t s = 0; s < springs; ++s) {
     if (isJoined(s) == (m_joined[s] != 0)) continue;

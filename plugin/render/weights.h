@@ -60,8 +60,8 @@ class CellWeights {
 
   CellJoining m_joining;
   std::vector<std::array<std::uint32_t, 2>> m_springs;  // elements of each spring
-  std::vector<std::array<std::uint32_t, 6>>
-      m_vertexPairs;                   // pair ids at each vertex; springs first, then bridged pairs
+  /// Pair ids at each vertex; springs first, then bridged pairs.
+  std::vector<std::array<std::uint32_t, 6>> m_vertexPairs;
   Rows m_pairVertices;                 // pair -> vertices
   Rows m_bridges;                      // bridged pair -> springs, two and two
   std::vector<std::uint8_t> m_joined;  // by pair id

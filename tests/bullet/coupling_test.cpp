@@ -1,12 +1,12 @@
 // Momentum and speed across the border of Bullet and the elements.
 #include <gtest/gtest.h>
 
-#include "bullet_world.h"
+#include "bullet/bullet_world.h"
 
 namespace rubble {
 namespace {
 
-/// A ball of 10 kg at 10 m/s through the wall; returns its speed along z after 0.3 s.
+// A ball of 10 kg at 10 m/s through the wall; returns its speed along z after 0.3 s.
 double speedBehindWall(double strength, int rate, int ticksPerCall, double* worstMomentum = nullptr) {
   test::BulletWorld w;
   Material m = material("concrete_soft");

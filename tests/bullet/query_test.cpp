@@ -1,13 +1,13 @@
 // What applications ask Bullet about a destructible body: rays, sweeps, contact tests, manifolds.
 #include <gtest/gtest.h>
 
-#include "bullet_world.h"
+#include "bullet/bullet_world.h"
 
 namespace rubble {
 namespace {
 
-/// Front of the small wall's elements for something that comes along +z: its cells begin at -0.04 m, its
-/// spheres at most one radius behind.
+// Front of the small wall's elements for something that comes along +z: its cells begin at -0.04 m, its
+// spheres at most one radius behind.
 void expectAtFront(double z) {
   EXPECT_GE(z, -0.04 - 1e-4);
   EXPECT_LE(z, -0.04 + test::smallWall()->radius);

@@ -1,7 +1,7 @@
 // What stands, stays.
 #include <gtest/gtest.h>
 
-#include "bullet_world.h"
+#include "bullet/bullet_world.h"
 
 namespace rubble {
 namespace {

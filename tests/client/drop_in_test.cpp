@@ -6,8 +6,9 @@
 #include "rubble/cook.h"
 #include "scenes/child.h"
 #include "scenes/scene_file.h"
+#include "support/folders.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 std::string cookedBlock(const TestFolder& folder) {
@@ -33,11 +34,12 @@ TEST(DropIn, BreaksWhatItLoads) {
 
 TEST(ClientProject, BuildsWithTheRuntimeAloneAndBreaksWhatItLoads) {
   const TestFolder folder;
-  const ChildResult build = runChild(
-      RUBBLE_CMAKE " -G Ninja -S " RUBBLE_SOURCE_DIR "/tests/client/project -B " RUBBLE_CLIENT_BUILD
-                   " -DRUBBLE_FOLDER=" RUBBLE_SOURCE_DIR " -DCMAKE_BUILD_TYPE=Release && " RUBBLE_CMAKE
-                   " --build " RUBBLE_CLIENT_BUILD " --target client",
-      folder.path());
+  const std::string configure =
+      RUBBLE_CMAKE " -G Ninja -S " + sourceFolder() +
+      "/tests/client/project -B " RUBBLE_CLIENT_BUILD " -DRUBBLE_FOLDER=" + sourceFolder() +
+      " -DCMAKE_BUILD_TYPE=Release";
+  const std::string make = RUBBLE_CMAKE " --build " RUBBLE_CLIENT_BUILD " --target client";
+  const ChildResult build = runChild(configure + " && " + make, folder.path());
   ASSERT_EQ(build.exitCode, 0) << build.out << build.error;
   expectABreak(RUBBLE_CLIENT_BUILD "/client");
 }
@@ -52,7 +54,7 @@ TEST(DropIn, LinksNeitherGlNorCgal) {
 }
 
 TEST(DropIn, AddsAtMostTenLinesToHelloWorld) {
-  std::ifstream source(RUBBLE_SOURCE_DIR "/demo/drop_in.cpp");
+  std::ifstream source(sourceFolder() + "/demo/drop_in.cpp");
   int ours = 0;
   for (std::string line; std::getline(source, line);) ours += line.find("// ours") != std::string::npos;
   EXPECT_GT(ours, 0);
@@ -66,4 +68,4 @@ TEST(DropIn, RefusesWhatIsNoAsset) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

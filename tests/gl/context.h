@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "demo/window/egl_context.h"
 #include "rubble/error.h"
-#include "window/egl_context.h"
 
 namespace rubble::test {
 

@@ -9,7 +9,7 @@ template <class Real>
 class Bodies : public ::testing::Test {};
 TYPED_TEST_SUITE(Bodies, Scalars);
 
-/// Everything that the ledger adds up, less what came from outside [J].
+// Everything that the ledger adds up, less what came from outside [J].
 double closing(const edem::Books& b) {
   return b.kinetic + b.elastic - b.dissipated.done() + b.fracture + b.massDamped + b.slept + b.leftKinetic +
          b.leftElastic - b.initialEnergy - b.gravity.work.done() - b.bullet.work.done();

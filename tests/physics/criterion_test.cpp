@@ -13,7 +13,7 @@ constexpr double kTension = 1e6, kCompression = 10e6, kModulus = 1e9;
 template <class Real>
 class Strength : public ::testing::Test {
  protected:
-  /// True if a spring along x, 0.2 m long, breaks under the tractions [Pa]; tension is positive.
+  // True if a spring along x, 0.2 m long, breaks under the tractions [Pa]; tension is positive.
   bool breaksAt(double normal, double shear, BreakMode& mode, double angle = 0) {
     Material material;
     material.tensileStrength = kTension;

@@ -10,7 +10,7 @@ template <class Real>
 class Fracture : public ::testing::Test {};
 TYPED_TEST_SUITE(Fracture, Scalars);
 
-/// Two elements whose spring breaks at the given strain, in tension or compression.
+// Two elements whose spring breaks at the given strain, in tension or compression.
 edem::BodyDef pairBreakingAt(double strain) {
   edem::BodyDef def = block({2, 1, 1});
   def.material.tensileStrength = strain * def.material.youngsModulus;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The message that adding the changed definition throws; empty if it is taken.
+// The message that adding the changed definition throws; empty if it is taken.
 std::string refusal(const std::function<void(edem::BodyDef&)>& change) {
   edem::BodyDef def = block({2, 2, 2}, true);
   change(def);

@@ -7,8 +7,8 @@ namespace {
 template <class Real>
 class RigidBody : public ::testing::Test {
  protected:
-  /// Throws a ball along -z at a wall about z = 0.1 whose springs do not break; returns the ball as it is 0.2
-  /// s later.
+  // Throws a ball along -z at a wall about z = 0.1 whose springs do not break; returns the ball as it is 0.2
+  // s later.
   edem::RigidProxy throwAtWall(double radius, double mass, double speed) {
     edem::BodyDef def = block({5, 5, 1}, true);
     def.material.contactDamping = 0.3;

@@ -29,7 +29,7 @@ Quat<double> turn(const Vec3<double>& v) {
                                    : Eigen::AngleAxisd::Identity());
 }
 
-/// Two ends in general position: strains of some percent, rotations of some tenths of a radian.
+// Two ends in general position: strains of some percent, rotations of some tenths of a radian.
 std::pair<SpringEnd<double>, SpringEnd<double>> someEnds(Numbers& numbers) {
   std::pair<SpringEnd<double>, SpringEnd<double>> ends;
   for (SpringEnd<double>* e : {&ends.first, &ends.second}) {

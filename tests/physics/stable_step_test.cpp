@@ -14,7 +14,7 @@ edem::RateBound boundOf(const edem::Body<double>& body) {
   return edem::springBound(body, std::span<const edem::ElementRates>(rates));
 }
 
-/// omega^2 of the stiffest mode, by power iteration on M^-1 K; K is the derivative of the forces themselves.
+// omega^2 of the stiffest mode, by power iteration on M^-1 K; K is the derivative of the forces themselves.
 double highestFrequency2(edem::Body<double> body) {
   constexpr double kSmall = 1e-8;
   const Eigen::Index n = Eigen::Index(body.elementCount());
@@ -58,7 +58,7 @@ TEST(StableStep, BoundsTheTrueHighestFrequency) {
   }
 }
 
-/// Largest total energy over the first, in `substeps` of `step` without damping or breaking.
+// Largest total energy over the first, in `substeps` of `step` without damping or breaking.
 double energyGrowth(double step, int substeps) {
   OneBody<double> one(block({3, 3, 3}));
   Numbers numbers;

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace rubble::tests {
+namespace rubble::test {
 
 struct ChildResult {
   int exitCode = -1;  ///< -1: it did not end by itself
@@ -28,4 +28,4 @@ inline ChildResult runChild(const std::string& command, const std::filesystem::p
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(error)};
 }
 
-}  // namespace rubble::tests
+}  // namespace rubble::test

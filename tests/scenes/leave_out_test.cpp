@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "dust_setup.h"
-#include "run.h"
-#include "scene_file.h"
+#include "demo/dust_setup.h"
+#include "demo/run.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 std::string loadedLibraries() {
@@ -69,4 +69,4 @@ TEST(LeaveOut, ASceneWithoutDebrisAllocatesNone) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

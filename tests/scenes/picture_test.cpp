@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "dust_setup.h"
+#include "demo/dust_setup.h"
+#include "demo/run.h"
+#include "demo/stage.h"
 #include "gl/context.h"
-#include "run.h"
-#include "scene_file.h"
-#include "stage.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 std::vector<unsigned char> readPng(const std::filesystem::path& file, int& width, int& height) {
@@ -25,8 +25,8 @@ std::vector<unsigned char> readPng(const std::filesystem::path& file, int& width
   image.format = PNG_FORMAT_RGB;
   std::vector<unsigned char> pixels(PNG_IMAGE_SIZE(image));
   png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
-  width = static_cast<int>(image.width);
-  height = static_cast<int>(image.height);
+  width = int(image.width);
+  height = int(image.height);
   return pixels;
 }
 
@@ -37,7 +37,7 @@ class Pictures : public testing::Test {
       GTEST_SKIP() << "no OpenGL context: " << reason;
     }
   }
-  /// Hashes of elements and Bullet bodies of all frames.
+  // Hashes of elements and Bullet bodies of all frames.
   std::string run(bool render, const std::vector<demo::Override>& overrides = {}) {
     const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), overrides);
     std::ostringstream report;
@@ -78,8 +78,8 @@ TEST_F(Pictures, DustOnGlDoesNotTouchTheElements) {
   EXPECT_EQ(cpu, run(true, {{"dust.backend", "gl"}}));
 }
 
-/// The scene `wall` with its dust on both back ends. The mechanics do not depend on the dust, so one world
-/// serves both.
+// The scene `wall` with its dust on both back ends. The mechanics do not depend on the dust, so one world
+// serves both.
 class DustOfTheWall : public test::GlTest {
  protected:
   void prepare() override {
@@ -106,7 +106,7 @@ class DustOfTheWall : public test::GlTest {
     const Events& events = m_world->destruction().takeEvents();
     std::vector<DustObstacle> obstacles;
     demo::findObstacles(*m_world, obstacles);
-    const auto dt = static_cast<float>(1 / m_scene.fps);
+    const auto dt = float(1 / m_scene.fps);
     for (DustGrid* grid : {m_cpu.get(), m_gl.get()}) grid->step(dt, events.dustSources, obstacles);
     m_stage->update(*m_world);
   }
@@ -123,7 +123,7 @@ class DustOfTheWall : public test::GlTest {
   std::unique_ptr<Framebuffer> m_framebuffer;
 };
 
-/// Of the colours of some pixels, of 255.
+// Of the colours of some pixels, of 255.
 struct Difference {
   double mean = 0;
   int most = 0;
@@ -141,7 +141,7 @@ Difference difference(const Image& a, const Image& b, const std::vector<bool>& c
       d.mean += apart / 3.0;
     }
   }
-  d.mean /= static_cast<double>(std::max<std::size_t>(d.pixels, 1));
+  d.mean /= double(std::max<std::size_t>(d.pixels, 1));
   return d;
 }
 
@@ -176,4 +176,4 @@ TEST_F(DustOfTheWall, LooksTheSameOnEitherBackEnd) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -1,12 +1,12 @@
 // The thread that writes pictures. No GL: the pictures are made by hand.
-#include "picture_writer.h"
+#include "demo/picture_writer.h"
 
 #include <gtest/gtest.h>
 
 #include "rubble/error.h"
-#include "scene_file.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 Image grey(std::uint8_t level) {
@@ -17,7 +17,7 @@ Image grey(std::uint8_t level) {
 TEST(PictureWriter, WritesMorePicturesThanItsQueueHolds) {
   const TestFolder folder;
   demo::PictureWriter writer(folder.path());
-  for (int frame = 0; frame < 30; ++frame) writer.save(frame, grey(static_cast<std::uint8_t>(frame)));
+  for (int frame = 0; frame < 30; ++frame) writer.save(frame, grey(std::uint8_t(frame)));
   writer.finish();
   for (int frame = 0; frame < 30; ++frame)
     EXPECT_TRUE(std::filesystem::exists(folder.path() / demo::pictureName(frame))) << frame;
@@ -43,4 +43,4 @@ TEST(PictureWriter, NamesSortByFrame) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <fstream>
 
-#include "child.h"
-#include "scene_file.h"
+#include "scenes/child.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 class Program : public testing::Test {
@@ -101,4 +101,4 @@ TEST_F(Program, HelpAndVersionAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -1,5 +1,5 @@
 // The run loop in this process: statistics, events and hashes of a small wall.
-#include "run.h"
+#include "demo/run.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,16 @@
 #include <set>
 #include <sstream>
 
-#include "hash.h"
-#include "scene_file.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 class Run : public testing::Test {
  protected:
-  /// Runs the small wall without pictures and returns its statistics, one object a frame.
+  // Runs the small wall without pictures and returns its statistics, one object a frame.
   std::vector<Json> run(const std::vector<demo::Override>& overrides = {}, int threads = 1) {
     const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), overrides);
     std::ostringstream report;
@@ -42,7 +41,7 @@ class Run : public testing::Test {
   demo::Summary m_summary;
 };
 
-/// Dotted names of all keys of an object, in order.
+// Dotted names of all keys of an object, in order.
 std::string keysOf(const Json& json, const std::string& prefix = "") {
   std::string text;
   for (const auto& [key, value] : json.items()) {
@@ -73,7 +72,7 @@ TEST_F(Run, StatisticsHaveTheDocumentedKeys) {
           "ms.total hash hash_debris"});
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i]["frame"], i);
-    EXPECT_DOUBLE_EQ(frames[i]["time_s"].get<double>(), (static_cast<double>(i) + 1) / 60);
+    EXPECT_DOUBLE_EQ(frames[i]["time_s"].get<double>(), (double(i) + 1) / 60);
     // Substeps fill the frame: 1/60 s, to the rounding of Bullet's float clock.
     const double simulated = frames[i]["substeps"].get<int>() * frames[i]["dt_s"].get<double>();
     EXPECT_NEAR(simulated, 1.0 / 60, 1e-6);
@@ -124,16 +123,5 @@ TEST_F(Run, ASecondRunLeavesNoPicturesOfTheFirst) {
   EXPECT_TRUE(std::filesystem::exists(m_folder.path() / "out/notes.txt"));
 }
 
-TEST(Fnv, MatchesThePublishedValues) {
-  // FNV-1a of "a" and "foobar", from the test vectors of the reference implementation
-  // (isthe.com/chongo/tech/comp/fnv).
-  demo::Fnv1a a;
-  a.add('a');
-  EXPECT_EQ(a.value(), 0xaf63dc4c8601ec8cu);
-  demo::Fnv1a foobar;
-  for (const char c : {'f', 'o', 'o', 'b', 'a', 'r'}) foobar.add(c);
-  EXPECT_EQ(foobar.value(), 0x85944171f73967e8u);
-}
-
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace rubble::tests {
+namespace rubble::test {
 
 /// A folder that goes away with the test.
 class TestFolder {
@@ -42,4 +42,4 @@ inline const char* const kSmallWall = R"({
   "debris": {}
 })";
 
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -1,15 +1,15 @@
 // Reading scenes: what is accepted, and the exact line that refuses everything else.
-#include "scene.h"
+#include "demo/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "input_error.h"
-#include "scene_file.h"
+#include "demo/input_error.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 using demo::InputError;
@@ -21,7 +21,7 @@ class SceneFile : public testing::Test {
   Scene load(const std::string& text, const std::vector<Override>& overrides = {}) {
     return demo::loadScene(m_folder.write("scene.json", text), overrides);
   }
-  /// What the scene is refused with, without the folder's name.
+  // What the scene is refused with, without the folder's name.
   std::string refusal(const std::string& text, const std::vector<Override>& overrides = {}) {
     try {
       load(text, overrides);
@@ -240,4 +240,4 @@ TEST(BundledScenes, ReadmeDocumentsEveryKey) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

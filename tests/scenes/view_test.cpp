@@ -1,10 +1,10 @@
 // The viewer, on a screen of its own.
 #include <gtest/gtest.h>
 
-#include "child.h"
-#include "scene_file.h"
+#include "scenes/child.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 bool hasVirtualScreen() {
@@ -31,4 +31,4 @@ TEST(View, WithoutADisplayIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

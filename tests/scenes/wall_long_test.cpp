@@ -1,9 +1,9 @@
 // What the scene `wall` promises over its whole length, and over a sweep of speeds: minutes.
 #include <gtest/gtest.h>
 
-#include "wall_run.h"
+#include "scenes/wall_run.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 SceneRun runAtSpeed(int metresPerSecond) {
@@ -80,4 +80,4 @@ TEST(WallQuiet, FallsAsleepWhereItMayAndCostsNoSubsteps) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -1,9 +1,9 @@
 // The scene `wall` with pictures.
 #include <gtest/gtest.h>
 
-#include "wall_run.h"
+#include "scenes/wall_run.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
 TEST(WallPictures, DoNotTouchTheSimulation) {
@@ -13,4 +13,4 @@ TEST(WallPictures, DoNotTouchTheSimulation) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

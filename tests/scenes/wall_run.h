@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "run.h"
-#include "scene_file.h"
-#include "world.h"
+#include "demo/run.h"
+#include "demo/world.h"
+#include "scenes/scene_file.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 
 using Json = nlohmann::ordered_json;
 using Overrides = std::vector<demo::Override>;
@@ -111,7 +111,7 @@ class QuietWall {
     m_places = places();
     double moved = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
-      moved = std::max(moved, static_cast<double>((m_places[i] - before[i]).norm()));
+      moved = std::max(moved, double((m_places[i] - before[i]).norm()));
     const double kinetic = std::max(0.0, m_world.destruction().ledger().kinetic);
     return std::max(moved * m_world.scene().fps, std::sqrt(2 * kinetic / m_lightest));
   }
@@ -133,4 +133,4 @@ class QuietWall {
   double m_lightest = 0;  // mass of an element [kg]
 };
 
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -5,12 +5,12 @@
 #include <map>
 #include <numbers>
 
-#include "wall_run.h"
+#include "scenes/wall_run.h"
 
-namespace rubble::tests {
+namespace rubble::test {
 namespace {
 
-/// By frame 6 the blow is over: all elements that it crushes are crushed.
+// By frame 6 the blow is over: all elements that it crushes are crushed.
 const demo::Override kAfterTheBlow = {"frames", "6"};
 
 // Bars of the design, section 3.12. Bullet's own bodies are not in the ledger, so its momentum is the side of
@@ -59,7 +59,7 @@ TEST(Wall, BallGetsWhatTheElementsGive) {
     const Eigen::Vector3d change = momentum() - before - mass * scene.gravity / scene.fps;
     double impulse = 0;
     for (const ContactImpulse& contact : world.destruction().takeEvents().contacts)
-      if (contact.other == &ball) impulse += static_cast<double>(contact.impulse);
+      if (contact.other == &ball) impulse += double(contact.impulse);
     EXPECT_NEAR(change.norm(), impulse, 1e-6 * scale) << "tick " << tick;
     given += impulse;
   }
@@ -73,16 +73,16 @@ TEST(Wall, SameSeedSameHashesOnAnyNumberOfThreads) {
   EXPECT_EQ(one, hashesOf(runWall({kThroughTheWall}, 2)));
 }
 
-/// Mass [kg] of grains of one size R [m].
+// Mass [kg] of grains of one size R [m].
 using MassBySize = std::map<double, double>;
 
-/// A crushed element's own law: the share (R / R_max)^m of its mass is in grains up to R.
+// A crushed element's own law: the share (R / R_max)^m of its mass is in grains up to R.
 struct ElementLaw {
-  double mass;       ///< [kg]
-  double maxRadius;  ///< R_max [m]
+  double mass;       // [kg]
+  double maxRadius;  // R_max [m]
 };
 
-/// Largest distance of the pieces' share of mass up to R from the law's, over all R.
+// Largest distance of the pieces' share of mass up to R from the law's, over all R.
 double distance(const MassBySize& pieces, const std::vector<ElementLaw>& laws, double modulus) {
   double total = 0, below = 0, largest = 0;
   for (const ElementLaw& law : laws) total += law.mass;
@@ -153,4 +153,4 @@ TEST(WallQuiet, NothingBreaksOrMovesFromTheFirstFrame) {
 }
 
 }  // namespace
-}  // namespace rubble::tests
+}  // namespace rubble::test

@@ -43,15 +43,14 @@ class GridAssetBuilder {
   using Point = std::array<int, 3>;
 
   Point place(std::uint32_t element) const {
-    const auto n = static_cast<std::uint32_t>(m_def.cubes[0]), m = static_cast<std::uint32_t>(m_def.cubes[1]);
-    return {static_cast<int>(element % n), static_cast<int>(element / n % m),
-            static_cast<int>(element / (n * m))};
+    const auto n = std::uint32_t(m_def.cubes[0]), m = std::uint32_t(m_def.cubes[1]);
+    return {int(element % n), int(element / n % m), int(element / (n * m))};
   }
   std::uint32_t elementAt(const Point& p) const {
     for (unsigned a = 0; a < 3; ++a) {
       if (p[a] < 0 || p[a] >= m_def.cubes[a]) return kNoElement;
     }
-    return static_cast<std::uint32_t>(p[0] + m_def.cubes[0] * (p[1] + m_def.cubes[1] * p[2]));
+    return std::uint32_t(p[0] + m_def.cubes[0] * (p[1] + m_def.cubes[1] * p[2]));
   }
   static Point moved(Point p, unsigned axis, int by) {
     p[axis] += by;
@@ -63,7 +62,7 @@ class GridAssetBuilder {
 
   void addElements() {
     const double h = m_def.edge;
-    const auto count = static_cast<std::uint32_t>(m_def.cubes[0] * m_def.cubes[1] * m_def.cubes[2]);
+    const auto count = std::uint32_t(m_def.cubes[0] * m_def.cubes[1] * m_def.cubes[2]);
     m_asset.radius = h / 2;
     for (std::uint32_t e = 0; e < count; ++e) {
       const Point p = place(e);
@@ -104,9 +103,8 @@ class GridAssetBuilder {
       side = place(element)[axis];
       cells = cellsAround(point, axis, side);
     }
-    const auto [it, isNew] =
-        m_vertexOf.try_emplace({point[0], point[1], point[2], static_cast<int>(axis), side},
-                               static_cast<std::uint32_t>(m_asset.vertices.size()));
+    const auto [it, isNew] = m_vertexOf.try_emplace({point[0], point[1], point[2], int(axis), side},
+                                                    std::uint32_t(m_asset.vertices.size()));
     if (isNew) {
       CellVertex vertex{position(Eigen::Vector3d(point[0], point[1], point[2])).cast<float>(),
                         {kNoElement, kNoElement, kNoElement, kNoElement}};
@@ -121,7 +119,7 @@ class GridAssetBuilder {
     const Point p = place(element);
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     normal[axis] = side > 0 ? 1.f : -1.f;
-    const auto first = static_cast<std::uint32_t>(m_asset.corners.size());
+    const auto first = std::uint32_t(m_asset.corners.size());
     // Counter-clockwise about +axis; the other way round for the face that looks along -axis.
     constexpr std::array<std::array<int, 2>, 4> kRound{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (unsigned c = 0; c < 4; ++c) {
@@ -135,13 +133,12 @@ class GridAssetBuilder {
     m_asset.triangles.push_back({first, first + 2, first + 3});
     Eigen::Vector3d centre(p[0] + 0.5, p[1] + 0.5, p[2] + 0.5);
     centre[axis] += 0.5 * side;
-    m_asset.faces.push_back({elementAt(moved(p, axis, side)), static_cast<float>(m_def.edge * m_def.edge),
-                             normal, position(centre).cast<float>()});
+    m_asset.faces.push_back({elementAt(moved(p, axis, side)), float(m_def.edge * m_def.edge), normal,
+                             position(centre).cast<float>()});
   }
 
   void addCell(std::uint32_t element) {
-    Cell cell{static_cast<std::uint32_t>(m_asset.triangles.size()), 0, 0,
-              static_cast<std::uint32_t>(m_asset.faces.size()), 6};
+    Cell cell{std::uint32_t(m_asset.triangles.size()), 0, 0, std::uint32_t(m_asset.faces.size()), 6};
     for (const bool inner : {false, true}) {  // outer triangles stand first
       for (unsigned axis = 0; axis < 3; ++axis) {
         for (const int side : {-1, 1}) {

@@ -15,10 +15,9 @@ struct Corner {
 Corner locate(Float4 point, int n, Float4 last) {
   const Float4 p = clamp(point, Float4(), last);
   const int most = n - 2;
-  const int x = static_cast<int>(p[0]), y = static_cast<int>(p[1]), z = static_cast<int>(p[2]);
+  const int x = int(p[0]), y = int(p[1]), z = int(p[2]);
   const int i = x < most ? x : most, j = y < most ? y : most, k = z < most ? z : most;
-  return {(k * n + j) * n + i, p[0] - static_cast<float>(i), p[1] - static_cast<float>(j),
-          p[2] - static_cast<float>(k)};
+  return {(k * n + j) * n + i, p[0] - float(i), p[1] - float(j), p[2] - float(k)};
 }
 
 Float4 sample(const Float4* field, const Corner& c, int n) {
@@ -41,13 +40,13 @@ Float4 clampToCorner(Float4 value, const Float4* field, const Corner& c, int n) 
 
 // Calls body(index, point in cells) for every cell.
 template <class Body>
-void forCells(const Lattice& lattice, ThreadPool& pool, Body&& body) {
+void forCells(const Lattice& lattice, base::ThreadPool& pool, Body&& body) {
   const int n = lattice.n;
   pool.run(n, n * n, [&](int begin, int end) {
     for (int z = begin; z < end; ++z) {
       for (int y = 0; y < n; ++y) {
         const int row = lattice.index(0, y, z);
-        Float4 point(0, static_cast<float>(y), static_cast<float>(z));
+        Float4 point(0, float(y), float(z));
         for (int x = 0; x < n; ++x, point = point + Float4(1, 0, 0)) body(row + x, point);
       }
     }
@@ -61,18 +60,18 @@ Float4 cellsPerSpeed(const Lattice& lattice, float dt) {
 
 }  // namespace
 
-void advect(const Lattice& lattice, float dt, Fields& fields, ThreadPool& pool) {
+void advect(const Lattice& lattice, float dt, Fields& fields, base::ThreadPool& pool) {
   const int n = lattice.n;
-  const Float4 scale = cellsPerSpeed(lattice, dt), last = Float4::all(static_cast<float>(n - 1));
+  const Float4 scale = cellsPerSpeed(lattice, dt), last = Float4::all(float(n - 1));
   const Float4* u = fields.velocity.data();
   Float4* out = fields.work.data();
   forCells(lattice, pool,
            [=](int i, Float4 point) { out[i] = sample(u, locate(point - u[i] * scale, n, last), n); });
 }
 
-void correctAdvection(const Lattice& lattice, float dt, Fields& fields, ThreadPool& pool) {
+void correctAdvection(const Lattice& lattice, float dt, Fields& fields, base::ThreadPool& pool) {
   const int n = lattice.n;
-  const Float4 scale = cellsPerSpeed(lattice, dt), last = Float4::all(static_cast<float>(n - 1));
+  const Float4 scale = cellsPerSpeed(lattice, dt), last = Float4::all(float(n - 1));
   const Float4* u = fields.velocity.data();
   const Float4* forward = fields.work.data();
   Float4* out = fields.corrected.data();

@@ -16,8 +16,8 @@ CpuDust::CpuDust(const DustGridDef& def)
       m_pool(def.threads),
       m_fields(m_lattice),
       m_pressure(m_lattice),
-      m_slabOutflow(static_cast<std::size_t>(def.resolution)),
-      m_slabSum(static_cast<std::size_t>(def.resolution)) {
+      m_slabOutflow(std::size_t(def.resolution)),
+      m_slabSum(std::size_t(def.resolution)) {
   m_pressure.setAir(m_fields.air, false, m_pool);
 }
 
@@ -87,8 +87,7 @@ void CpuDust::read(Field field, std::vector<float>& values) const {
   const int n = m_lattice.n;
   switch (field) {
     case Field::Velocity:
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = m_fields.velocity[i / 4][static_cast<int>(i % 4)];
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = m_fields.velocity[i / 4][int(i % 4)];
       break;
     case Field::Density:
       values = m_fields.density;
@@ -117,7 +116,7 @@ void CpuDust::write(Field field, std::span<const float> values) {
   switch (field) {
     case Field::Velocity:
       for (std::size_t i = 0; i < values.size(); ++i) {
-        m_fields.velocity[i / 4].set(static_cast<int>(i % 4), values[i]);
+        m_fields.velocity[i / 4].set(int(i % 4), values[i]);
       }
       break;
     case Field::Density:

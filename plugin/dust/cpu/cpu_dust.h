@@ -1,11 +1,11 @@
 // The CPU back end: the stages on plain arrays. Reference of the GL back end.
 #pragma once
 
+#include "base/threads.h"
 #include "dust/cpu/fields.h"
 #include "dust/cpu/multigrid.h"
 #include "dust/cpu/transport.h"
 #include "dust/stages.h"
-#include "dust/thread_pool.h"
 
 namespace rubble::dust {
 
@@ -32,7 +32,7 @@ class CpuDust final : public Stages {
   const Multigrid& pressure() const { return m_pressure; }
 
  private:
-  mutable ThreadPool m_pool;
+  mutable base::ThreadPool m_pool;
   Fields m_fields;
   Multigrid m_pressure;
   bool m_anySolid = false;

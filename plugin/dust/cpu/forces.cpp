@@ -20,7 +20,7 @@ Reach reach(int i, int n, int stride) {
 
 // Decay rate of the sponge [1/s] at `distance` cells from an open side (0 is the cell at the side).
 float spongeRate(int distance) {
-  const float d = 1 - static_cast<float>(distance) / static_cast<float>(shared::kDustSpongeCells);
+  const float d = 1 - float(distance) / float(shared::kDustSpongeCells);
   return d > 0 ? shared::kDustSpongeRate * d * d : 0;
 }
 
@@ -47,7 +47,7 @@ Float4 confinement(const Float4* curl, Reach rx, Reach ry, Reach rz, Float4 half
 
 }  // namespace
 
-void computeCurl(const Lattice& lattice, Fields& fields, ThreadPool& pool) {
+void computeCurl(const Lattice& lattice, Fields& fields, base::ThreadPool& pool) {
   const int n = lattice.n;
   const Eigen::Vector3f half = 0.5f * lattice.cell.cwiseInverse();
   pool.run(n, n * n, [&](int begin, int end) {
@@ -69,7 +69,8 @@ void computeCurl(const Lattice& lattice, Fields& fields, ThreadPool& pool) {
   });
 }
 
-void applyForces(const Lattice& lattice, const ForceConstants& constants, Fields& fields, ThreadPool& pool) {
+void applyForces(const Lattice& lattice, const ForceConstants& constants, Fields& fields,
+                 base::ThreadPool& pool) {
   const int n = lattice.n;
   const Eigen::Vector3f half = 0.5f * lattice.cell.cwiseInverse();
   const Float4 halfInverse(half.x(), half.y(), half.z());

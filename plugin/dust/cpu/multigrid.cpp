@@ -22,8 +22,8 @@ float inverseOf(float diagonal) {
 Multigrid::Multigrid(const Lattice& lattice) {
   Eigen::Vector3f cell = lattice.cell;
   for (int n = lattice.n; n >= shared::kDustCoarsest; n /= 2, cell *= 2) {
-    const auto cells = static_cast<std::size_t>(n) * n * n;
-    const auto padded = static_cast<std::size_t>(n + 2) * (n + 2) * (n + 2);
+    const auto cells = std::size_t(n) * n * n;
+    const auto padded = std::size_t(n + 2) * (n + 2) * (n + 2);
     Level level;
     level.n = n;
     for (int a = 0; a < 3; ++a) level.coefficient[a] = 1 / (cell[a] * cell[a]);
@@ -37,7 +37,7 @@ Multigrid::Multigrid(const Lattice& lattice) {
   }
 }
 
-void Multigrid::setAir(const std::vector<float>& air, bool anySolid, ThreadPool& pool) {
+void Multigrid::setAir(const std::vector<float>& air, bool anySolid, base::ThreadPool& pool) {
   if (!anySolid && !m_anySolid) return;
   m_anySolid = anySolid;
   setFinest(air, pool);
@@ -82,7 +82,7 @@ float Multigrid::finestWeight(const std::vector<float>& air, int x, int y, int z
   return direction == 2 ? 0 : 2 * own;
 }
 
-void Multigrid::setFinest(const std::vector<float>& air, ThreadPool& pool) {
+void Multigrid::setFinest(const std::vector<float>& air, base::ThreadPool& pool) {
   const int n = m_levels[0].n;
   pool.run(n, 2 * n * n, [&](int begin, int end) {
     for (int z = begin; z < end; ++z) {
@@ -97,7 +97,7 @@ void Multigrid::setFinest(const std::vector<float>& air, ThreadPool& pool) {
   });
 }
 
-void Multigrid::coarsenWeights(std::size_t level, ThreadPool& pool) {
+void Multigrid::coarsenWeights(std::size_t level, base::ThreadPool& pool) {
   const Level& fine = m_levels[level - 1];
   Level& coarse = m_levels[level];
   pool.run(coarse.n, 24 * coarse.n * coarse.n, [&](int begin, int end) {
@@ -152,7 +152,7 @@ void Multigrid::neighbourSum(const Level& level, int first, int y, int z, float*
 // Gauss-Seidel on the cells of one colour: their neighbours all have the other one, so order does not matter.
 // Whole rows vectorise, half of them for nothing; but where a part of the range ends, the neighbours of the
 // other half are just being written by another thread, so there only the cells of the colour are read for.
-void Multigrid::smooth(Level& level, const float* rhs, int colour, ThreadPool& pool) const {
+void Multigrid::smooth(Level& level, const float* rhs, int colour, base::ThreadPool& pool) const {
   const int n = level.n;
   pool.run(n, n * n, [&](int begin, int end) {
     Row next;
@@ -187,7 +187,8 @@ void Multigrid::residualRow(const Level& level, const float* rhs, int y, int z, 
   }
 }
 
-void Multigrid::restrictResidual(const Level& fine, const float* rhs, Level& coarse, ThreadPool& pool) const {
+void Multigrid::restrictResidual(const Level& fine, const float* rhs, Level& coarse,
+                                 base::ThreadPool& pool) const {
   const int n = coarse.n;
   pool.run(n, 8 * n * n, [&](int begin, int end) {
     Row a, b, c, d;
@@ -246,7 +247,7 @@ void Multigrid::prolongRow(const Level& coarse, int y, int z, float* correction)
   }
 }
 
-void Multigrid::prolong(const Level& coarse, Level& fine, ThreadPool& pool) const {
+void Multigrid::prolong(const Level& coarse, Level& fine, base::ThreadPool& pool) const {
   const int n = fine.n;
   pool.run(n, n * n, [&](int begin, int end) {
     Row correction;
@@ -261,7 +262,7 @@ void Multigrid::prolong(const Level& coarse, Level& fine, ThreadPool& pool) cons
   });
 }
 
-void Multigrid::cycle(std::size_t index, const float* rhs, ThreadPool& pool) {
+void Multigrid::cycle(std::size_t index, const float* rhs, base::ThreadPool& pool) {
   Level& level = m_levels[index];
   if (level.n == shared::kDustCoarsest) {
     for (int sweep = 0; sweep < 2 * shared::kDustCoarsestSweeps; ++sweep) smooth(level, rhs, sweep & 1, pool);
@@ -277,7 +278,7 @@ void Multigrid::cycle(std::size_t index, const float* rhs, ThreadPool& pool) {
   smooth(level, rhs, 1, pool);
 }
 
-void Multigrid::solve(const std::vector<float>& divergence, int cycles, ThreadPool& pool) {
+void Multigrid::solve(const std::vector<float>& divergence, int cycles, base::ThreadPool& pool) {
   std::fill(m_levels[0].pressure.begin(), m_levels[0].pressure.end(), 0.0f);
   for (int i = 0; i < cycles; ++i) cycle(0, divergence.data(), pool);
 }

@@ -8,9 +8,9 @@
 
 #include <vector>
 
+#include "base/threads.h"
 #include "dust/cpu/projection.h"
 #include "dust/lattice.h"
-#include "dust/thread_pool.h"
 
 namespace rubble::dust {
 
@@ -18,14 +18,14 @@ class Multigrid {
  public:
   explicit Multigrid(const Lattice& lattice);
 
-  // Takes over the solids. `air` (n^3): 1 air, 0 solid.
-  void setAir(const std::vector<float>& air, bool anySolid, ThreadPool& pool);
-  // Starts from zero pressure: a closed pocket of air has no unique pressure and would drift with a warm
-  // start.
-  void solve(const std::vector<float>& divergence, int cycles, ThreadPool& pool);
+  /// Takes over the solids. `air` (n^3): 1 air, 0 solid.
+  void setAir(const std::vector<float>& air, bool anySolid, base::ThreadPool& pool);
+  /// Starts from zero pressure: a closed pocket of air has no unique pressure and would drift with a warm
+  /// start.
+  void solve(const std::vector<float>& divergence, int cycles, base::ThreadPool& pool);
 
   PaddedPressure pressure() const { return {m_levels[0].pressure.data(), m_levels[0].n + 2}; }
-  // Root of the sum of squares of divergence - laplace(p) over that of the divergence.
+  /// Root of the sum of squares of divergence - laplace(p) over that of the divergence.
   double relativeResidual(const std::vector<float>& divergence) const;
 
  private:
@@ -35,29 +35,29 @@ class Multigrid {
     std::vector<float> pressure;  // ((n+2)^3) with zero ghosts [m^2/s]
     std::vector<float> rhs;       // (n^3) [1/s]; empty on the finest level
     std::vector<float> inverse;   // (n^3) 1 / diagonal [m^2]; 0 in a solid
-    std::vector<float>
-        weights[6];  // (n^3) coefficient of low x, high x, low y, ... [1/m^2]; empty on the finest level
+    /// (n^3) coefficient of low x, high x, low y, ... [1/m^2]; empty on the finest level.
+    std::vector<float> weights[6];
     float* row(int y, int z) { return pressure.data() + offset(y, z); }
     const float* row(int y, int z) const { return pressure.data() + offset(y, z); }
-    std::size_t cell(int y, int z) const { return (static_cast<std::size_t>(z) * n + y) * n; }
+    std::size_t cell(int y, int z) const { return (std::size_t(z) * n + y) * n; }
 
    private:
     std::size_t offset(int y, int z) const {
-      const auto s = static_cast<std::size_t>(n) + 2;
-      return (static_cast<std::size_t>(z + 1) * s + static_cast<std::size_t>(y + 1)) * s + 1;
+      const auto s = std::size_t(n) + 2;
+      return (std::size_t(z + 1) * s + std::size_t(y + 1)) * s + 1;
     }
   };
 
-  void setFinest(const std::vector<float>& air, ThreadPool& pool);
-  void coarsenWeights(std::size_t level, ThreadPool& pool);
+  void setFinest(const std::vector<float>& air, base::ThreadPool& pool);
+  void coarsenWeights(std::size_t level, base::ThreadPool& pool);
   float finestWeight(const std::vector<float>& air, int x, int y, int z, int direction) const;
   template <int step>
   void neighbourSum(const Level& level, int first, int y, int z, float* sum) const;
-  void cycle(std::size_t level, const float* rhs, ThreadPool& pool);
-  void smooth(Level& level, const float* rhs, int colour, ThreadPool& pool) const;
-  void restrictResidual(const Level& fine, const float* rhs, Level& coarse, ThreadPool& pool) const;
+  void cycle(std::size_t level, const float* rhs, base::ThreadPool& pool);
+  void smooth(Level& level, const float* rhs, int colour, base::ThreadPool& pool) const;
+  void restrictResidual(const Level& fine, const float* rhs, Level& coarse, base::ThreadPool& pool) const;
   void residualRow(const Level& level, const float* rhs, int y, int z, float* residual) const;
-  void prolong(const Level& coarse, Level& fine, ThreadPool& pool) const;
+  void prolong(const Level& coarse, Level& fine, base::ThreadPool& pool) const;
   void prolongRow(const Level& coarse, int y, int z, float* correction) const;
 
   std::vector<Level> m_levels;  // finest first

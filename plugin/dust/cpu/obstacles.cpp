@@ -24,8 +24,7 @@ void markSlab(const Lattice& lattice, const SolidCells& cells, int z, Fields& fi
   const Float4 most = Float4::all(shared::kDustMaxSpeed), least = Float4::all(-shared::kDustMaxSpeed);
   for (int y = cells.first.y(); y <= cells.last.y(); ++y) {
     for (int x = cells.first.x(); x <= cells.last.x(); ++x) {
-      const Eigen::Vector3f steps(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
-                                  static_cast<float>(z) + 0.5f);
+      const Eigen::Vector3f steps(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f);
       const Eigen::Vector3f offset = lattice.origin + steps.cwiseProduct(lattice.cell) - xyz(s.position);
       if (!holds(s, offset)) continue;
       const Eigen::Vector3f v = xyz(s.velocity) + xyz(s.spin).cross(offset);
@@ -39,7 +38,7 @@ void markSlab(const Lattice& lattice, const SolidCells& cells, int z, Fields& fi
 }  // namespace
 
 void markSolids(const Lattice& lattice, std::span<const SolidCells> solids, Fields& fields,
-                ThreadPool& pool) {
+                base::ThreadPool& pool) {
   std::fill(fields.air.begin(), fields.air.end(), 1.0f);
   for (const SolidCells& cells : solids) {
     const Eigen::Vector3i size = cells.last - cells.first + Eigen::Vector3i::Ones();

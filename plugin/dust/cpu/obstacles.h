@@ -3,13 +3,14 @@
 
 #include <span>
 
+#include "base/threads.h"
 #include "dust/cpu/fields.h"
 #include "dust/solids.h"
-#include "dust/thread_pool.h"
 
 namespace rubble::dust {
 
-// Marks the cells whose centre lies in a solid and gives them its velocity, v + spin x offset.
-void markSolids(const Lattice& lattice, std::span<const SolidCells> solids, Fields& fields, ThreadPool& pool);
+/// Marks the cells whose centre lies in a solid and gives them its velocity, v + spin x offset.
+void markSolids(const Lattice& lattice, std::span<const SolidCells> solids, Fields& fields,
+                base::ThreadPool& pool);
 
 }  // namespace rubble::dust

@@ -116,7 +116,7 @@ void correctCells(const Lattice& lattice, PaddedPressure pressure, const Eigen::
 
 }  // namespace
 
-void computeFaces(const Lattice& lattice, Fields& fields, ThreadPool& pool) {
+void computeFaces(const Lattice& lattice, Fields& fields, base::ThreadPool& pool) {
   const int n = lattice.n;
   pool.run(n, 3 * n * n, [&](int begin, int end) {
     for (int z = begin; z < end; ++z) {
@@ -132,7 +132,7 @@ void computeFaces(const Lattice& lattice, Fields& fields, ThreadPool& pool) {
   });
 }
 
-void computeDivergence(const Lattice& lattice, Fields& fields, ThreadPool& pool) {
+void computeDivergence(const Lattice& lattice, Fields& fields, base::ThreadPool& pool) {
   const int n = lattice.n;
   const Eigen::Vector3f inverse = lattice.cell.cwiseInverse();
   pool.run(n, n * n, [&](int begin, int end) {
@@ -151,7 +151,8 @@ void computeDivergence(const Lattice& lattice, Fields& fields, ThreadPool& pool)
   });
 }
 
-void subtractGradient(const Lattice& lattice, PaddedPressure pressure, Fields& fields, ThreadPool& pool) {
+void subtractGradient(const Lattice& lattice, PaddedPressure pressure, Fields& fields,
+                      base::ThreadPool& pool) {
   const int n = lattice.n;
   const Eigen::Vector3f inverse = lattice.cell.cwiseInverse();
   pool.run(n, 2 * n * n, [&](int begin, int end) {

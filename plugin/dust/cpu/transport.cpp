@@ -152,7 +152,7 @@ void sweepSlab(const Lattice& lattice, int axis, int fixed, float share, Fields&
 }
 
 void sweep(const Lattice& lattice, int axis, float share, Fields& fields, std::vector<Outflow>& partial,
-           ThreadPool& pool) {
+           base::ThreadPool& pool) {
   const int n = lattice.n;
   pool.run(n, n * n, [&](int begin, int end) {
     for (int slab = begin; slab < end; ++slab) {
@@ -170,7 +170,8 @@ void sweep(const Lattice& lattice, int axis, float share, Fields& fields, std::v
 
 }  // namespace
 
-int toCourantNumbers(const Lattice& lattice, float dt, float settling, Fields& fields, ThreadPool& pool) {
+int toCourantNumbers(const Lattice& lattice, float dt, float settling, Fields& fields,
+                     base::ThreadPool& pool) {
   const int n = lattice.n;
   const Eigen::Vector3f scale = dt * lattice.cell.cwiseInverse();
   std::array<float, 256> most{};
@@ -178,13 +179,13 @@ int toCourantNumbers(const Lattice& lattice, float dt, float settling, Fields& f
     for (int z = begin; z < end; ++z) most[z] = courantOfSlab(lattice, scale, settling, z, fields);
   });
   const float largest = *std::max_element(most.begin(), most.begin() + n);
-  return static_cast<int>(std::ceil(std::clamp(largest, 1.0f, static_cast<float>(shared::kDustMaxSubsteps))));
+  return int(std::ceil(std::clamp(largest, 1.0f, float(shared::kDustMaxSubsteps))));
 }
 
 Outflow carryDust(const Lattice& lattice, int substeps, Fields& fields, std::vector<Outflow>& partial,
-                  ThreadPool& pool) {
+                  base::ThreadPool& pool) {
   std::fill(partial.begin(), partial.end(), Outflow{});
-  const float share = 1 / static_cast<float>(substeps);
+  const float share = 1 / float(substeps);
   for (int s = 0; s < substeps; ++s) {
     // Every other substep takes the axes in reverse, which cancels the bias of their order.
     for (int k = 0; k < 3; ++k) sweep(lattice, s % 2 == 0 ? k : 2 - k, share, fields, partial, pool);

@@ -7,24 +7,25 @@
 // counted where it happens.
 #pragma once
 
+#include "base/threads.h"
 #include "dust/cpu/fields.h"
-#include "dust/thread_pool.h"
 
 namespace rubble::dust {
 
-// Dust that went through the sides, as the sum of density x cells [kg/m^3]; times the volume of a cell it is
-// kilograms.
+/// Dust that went through the sides, as the sum of density x cells [kg/m^3]; times the volume of a cell it is
+/// kilograms.
 struct Outflow {
   double settled = 0;
   double left = 0;
 };
 
-// Turns the face velocities into Courant numbers of the dust for the whole step: air velocity, less the
-// settling speed [m/s] on y faces; solids let dust out but not in. Returns the number of substeps.
-int toCourantNumbers(const Lattice& lattice, float dt, float settling, Fields& fields, ThreadPool& pool);
+/// Turns the face velocities into Courant numbers of the dust for the whole step: air velocity, less the
+/// settling speed [m/s] on y faces; solids let dust out but not in. Returns the number of substeps.
+int toCourantNumbers(const Lattice& lattice, float dt, float settling, Fields& fields,
+                     base::ThreadPool& pool);
 
-// `partial` (n) holds sums per slab, so that the total does not depend on threads.
+/// `partial` (n) holds sums per slab, so that the total does not depend on threads.
 Outflow carryDust(const Lattice& lattice, int substeps, Fields& fields, std::vector<Outflow>& partial,
-                  ThreadPool& pool);
+                  base::ThreadPool& pool);
 
 }  // namespace rubble::dust

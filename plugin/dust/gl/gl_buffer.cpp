@@ -23,7 +23,7 @@ void bindForUpdate(GLuint id) {
 GlBuffer::GlBuffer(std::size_t bytes, GLenum usage) : m_bytes(bytes) {
   glGenBuffers(1, &m_id);
   glBindBuffer(kTarget, m_id);
-  glBufferData(kTarget, static_cast<GLsizeiptr>(bytes), nullptr, usage);
+  glBufferData(kTarget, GLsizeiptr(bytes), nullptr, usage);
   try {
     checkGl("storage for a buffer");
   } catch (...) {
@@ -57,12 +57,12 @@ void GlBuffer::clear() const {
 
 void GlBuffer::write(std::span<const std::byte> bytes) const {
   bindForUpdate(m_id);
-  glBufferSubData(kTarget, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  glBufferSubData(kTarget, 0, GLsizeiptr(bytes.size()), bytes.data());
 }
 
 void GlBuffer::read(std::span<std::byte> bytes) const {
   bindForUpdate(m_id);
-  glGetBufferSubData(kTarget, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  glGetBufferSubData(kTarget, 0, GLsizeiptr(bytes.size()), bytes.data());
 }
 
 void checkGl(const char* what) {

@@ -23,7 +23,7 @@ const std::string& checkedContext(const Lattice& lattice, const std::string& sha
   }
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  const auto largest = static_cast<GLint64>(lattice.cells() * sizeof(vec4));
+  const auto largest = GLint64(lattice.cells() * sizeof(vec4));
   if (largest > most) {
     throw Error("dust: resolution: a storage buffer of " + std::to_string(largest) +
                 " bytes is needed, the driver has at most " + std::to_string(most));
@@ -56,7 +56,7 @@ GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory)
       m_air(m_lattice.cells() * sizeof(float)),
       m_faces(3 * m_lattice.facesOfAxis() * sizeof(float)),
       m_divergence(m_lattice.cells() * sizeof(float)),
-      m_outflow(static_cast<std::size_t>(def.resolution * def.resolution) * 12 * sizeof(float)),
+      m_outflow(std::size_t(def.resolution * def.resolution) * 12 * sizeof(float)),
       m_substeps(shared::kDustMaxSubsteps * sizeof(shared::DustDispatch) + 2 * sizeof(shared::uint)),
       m_params(sizeof(shared::DustParams)),
       m_pressure(m_source),
@@ -95,7 +95,7 @@ void GlDust::addSources(std::span<const shared::DustSourceCell> sources) {
   sendList(sources);
   m_velocity.bind(DUST_BIND_VELOCITY);
   m_density.bind(DUST_BIND_DENSITY);
-  const int count = static_cast<int>(sources.size());
+  const int count = int(sources.size());
   m_addSources.set(DUST_UNIFORM_A, count);
   m_addSources.run((count + kListGroup - 1) / kListGroup);
 }
@@ -118,7 +118,7 @@ void GlDust::placeObstacles(std::span<const SolidCells> solids) {
     sendList(std::span<const shared::DustSolid>(m_solidList));
     m_velocity.bind(DUST_BIND_VELOCITY);
     m_air.bind(DUST_BIND_AIR);
-    m_obstacles.set(DUST_UNIFORM_A, static_cast<int>(solids.size()));
+    m_obstacles.set(DUST_UNIFORM_A, int(solids.size()));
     m_source.runOnCells(m_obstacles);
   }
   m_anySolid = !solids.empty();
@@ -172,7 +172,7 @@ void GlDust::transportDust(float dt) {
     // Every other substep takes the axes in reverse, which cancels the bias of their order.
     for (int k = 0; k < 3; ++k) {
       m_sweep.set(DUST_UNIFORM_A, s % 2 == 0 ? k : 2 - k);
-      m_sweep.runIndirect(m_substeps.id(), static_cast<std::size_t>(s) * sizeof(shared::DustDispatch));
+      m_sweep.runIndirect(m_substeps.id(), std::size_t(s) * sizeof(shared::DustDispatch));
     }
   }
 }

@@ -49,7 +49,7 @@ template <class GetLength, class GetLog>
 std::string logOf(GLuint id, GetLength getLength, GetLog getLog) {
   GLint length = 0;
   getLength(id, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(std::max(length, 0)), '\0');
+  std::string log(std::size_t(std::max(length, 0)), '\0');
   if (length > 0) getLog(id, length, nullptr, log.data());
   return log;
 }
@@ -64,14 +64,14 @@ GlKernel::GlKernel(GlKernel&& other) noexcept : m_program(std::exchange(other.m_
 
 void GlKernel::run(int x, int y, int z) const {
   glUseProgram(m_program);
-  glDispatchCompute(static_cast<GLuint>(x), static_cast<GLuint>(y), static_cast<GLuint>(z));
+  glDispatchCompute(GLuint(x), GLuint(y), GLuint(z));
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void GlKernel::runIndirect(GLuint arguments, std::size_t offset) const {
   glUseProgram(m_program);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
-  glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+  glDispatchComputeIndirect(GLintptr(offset));
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

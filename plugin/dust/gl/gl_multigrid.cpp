@@ -22,7 +22,7 @@ GlMultigrid::GlMultigrid(const GlKernelSource& source)
       m_prolong(source.build("prolong.comp")),
       m_coarsest(source.build("coarsest.comp")) {
   for (int n = source.n(); n >= shared::kDustCoarsest; n /= 2) {
-    const auto cells = static_cast<std::size_t>(n) * n * n;
+    const auto cells = std::size_t(n) * n * n;
     Level level{n, bufferOf<float>(cells), {}, bufferOf<float>(cells), {}};
     if (n < source.n()) {
       level.rhs = bufferOf<float>(cells);

@@ -12,9 +12,9 @@ class GlMultigrid {
  public:
   explicit GlMultigrid(const GlKernelSource& source);
 
-  // Takes over the solids. `air`: DUST_BIND_AIR.
+  /// Takes over the solids. `air`: DUST_BIND_AIR.
   void setAir(const GlBuffer& air, bool anySolid);
-  // From zero pressure; `divergence` is the right-hand side.
+  /// From zero pressure; `divergence` is the right-hand side.
   void solve(const GlBuffer& divergence, int cycles);
   const GlBuffer& pressure() const { return m_levels[0].pressure; }
 

@@ -19,7 +19,7 @@ GlTotals::GlTotals(const GlKernelSource& source, double volume)
     : m_volume(volume),
       m_chunks(chunksOf(source.n())),
       m_sum(source.build("sums.comp")),
-      m_values(2 * static_cast<std::size_t>(m_chunks + kSides)) {
+      m_values(2 * std::size_t(m_chunks + kSides)) {
   m_sums = bufferOf<float>(m_values.size());
   for (Flight& f : m_flights) f.copy = GlBuffer(m_values.size() * sizeof(float), GL_STREAM_READ);
 }
@@ -46,8 +46,7 @@ void GlTotals::update(const GlBuffer& density, const GlBuffer& outflow, double e
   Flight& flight = m_flights[(m_oldest + free) % kFlights];
   glBindBuffer(GL_COPY_READ_BUFFER, m_sums.id());
   glBindBuffer(GL_COPY_WRITE_BUFFER, flight.copy.id());
-  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
-                      static_cast<GLsizeiptr>(m_sums.bytes()));
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, GLsizeiptr(m_sums.bytes()));
   flight.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   flight.emitted = emitted;
   flight.outside = outside;
@@ -70,8 +69,7 @@ void GlTotals::receive() {
 DustTotals GlTotals::read(const Flight& flight) {
   flight.copy.read(std::as_writable_bytes(std::span(m_values)));
   const auto sum = [&](int i) {
-    return double{m_values[2 * static_cast<std::size_t>(i)]} +
-           double{m_values[2 * static_cast<std::size_t>(i) + 1]};
+    return double{m_values[2 * std::size_t(i)]} + double{m_values[2 * std::size_t(i) + 1]};
   };
   double air = 0, left = 0;
   for (int i = 0; i < m_chunks; ++i) air += sum(i);

@@ -13,14 +13,14 @@ namespace rubble::dust {
 
 class GlTotals {
  public:
-  // `volume` of a cell [m^3].
+  /// `volume` of a cell [m^3].
   GlTotals(const GlKernelSource& source, double volume);
   ~GlTotals();
   GlTotals(const GlTotals&) = delete;
   GlTotals& operator=(const GlTotals&) = delete;
 
-  // Takes what has arrived, then sends for the sums of now. `outflow`: DUST_BIND_OUTFLOW. `emitted` and
-  // `outside` [kg] are those of now; they are reported with the sums.
+  /// Takes what has arrived, then sends for the sums of now. `outflow`: DUST_BIND_OUTFLOW. `emitted` and
+  /// `outside` [kg] are those of now; they are reported with the sums.
   void update(const GlBuffer& density, const GlBuffer& outflow, double emitted, double outside);
   const DustTotals& arrived() const { return m_arrived; }
 

@@ -67,8 +67,8 @@ struct Asset {
   double radius = 0;                       ///< r of every element [m]
   std::vector<Eigen::Vector3d> positions;  ///< centres at rest [m] (n x 3)
   std::vector<double> volumes;             ///< of the clipped Voronoi cells [m^3]; they add up to the solid's
-  std::vector<double>
-      gyrations;  ///< a third of the trace of the cell's inertia about its centroid, per kilogram [m^2]
+  /// a third of the trace of the cell's inertia about its centroid, per kilogram [m^2].
+  std::vector<double> gyrations;
 
   std::vector<AssetSpring> springs;  ///< sorted by (first, second)
   std::vector<AssetAnchor> anchors;  ///< sorted by element
@@ -76,8 +76,8 @@ struct Asset {
   // Cell meshes.
   std::vector<CellVertex> vertices;
   std::vector<CellCorner> corners;
-  std::vector<std::array<std::uint32_t, 3>>
-      triangles;                ///< into corners; counter-clockwise seen from outside the cell
+  /// Into corners; counter-clockwise seen from outside the cell.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<CellFace> faces;  ///< grouped by cell
   std::vector<Cell> cells;      ///< one an element (n)
 

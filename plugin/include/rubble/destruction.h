@@ -31,8 +31,8 @@ struct DestructionDef {
   int maxSubstepsPerFrame = 20000;
   /// Share of the stable substep that is used, 0 to 1.
   double substepSafety = 0.9;
-  bool debris =
-      true;  ///< false: crushed elements vanish into dust events and booked mass, no particles are kept
+  /// False: crushed elements vanish into dust events and booked mass, no particles are kept.
+  bool debris = true;
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces; beyond it the oldest resting one is removed
   std::uint32_t maxEvents = 1u << 20;
   bool sleep = true;       ///< bodies at rest are put to sleep by Bullet's own rules

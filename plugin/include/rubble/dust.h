@@ -11,17 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "rubble/dust_source.h"
 #include "rubble/error.h"
 
 namespace rubble {
-
-/// Dust that a crushed element raised in this frame.
-struct DustSource {
-  Eigen::Vector3f position;  ///< [m], world
-  Eigen::Vector3f velocity;  ///< of the element [m/s]
-  float mass;                ///< P m of eq. (6), (7) [kg]
-  float size;                ///< R_dust, radius of the largest grain [m]
-};
 
 /// A solid in the air. Cells whose centre lies inside take its velocity and hold no dust flow through them.
 struct DustObstacle {
@@ -29,8 +22,8 @@ struct DustObstacle {
   Kind kind = Kind::Sphere;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of its centre [m]
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  Eigen::Vector3f halfExtents =
-      Eigen::Vector3f::Constant(0.5f);                 ///< of a box [m]; x of a sphere is its radius
+  /// Of a box [m]; x of a sphere is its radius.
+  Eigen::Vector3f halfExtents = Eigen::Vector3f::Constant(0.5f);
   Eigen::Vector3f velocity = Eigen::Vector3f::Zero();  ///< linear [m/s]
   Eigen::Vector3f spin = Eigen::Vector3f::Zero();      ///< angular [rad/s]
 };

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rubble/dust.h"
+#include "rubble/dust_source.h"
 
 namespace rubble {
 

@@ -15,21 +15,21 @@ struct Material {
   double tensileStrength = 0.33e6;     ///< f_t on a spring's traction [Pa], >= 0
   double compressiveStrength = 3.3e6;  ///< f_c [Pa], >= f_t
   double breakingAngle = 0.022;        ///< relative rotation at which a spring breaks [rad], > 0
-  double stretchThreshold =
-      0.011;  ///< |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless
-  double springDamping =
-      0.03;  ///< damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5
+  /// |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless.
+  double stretchThreshold = 0.011;
+  /// Damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5.
+  double springDamping = 0.03;
   double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
   double contactDamping = 0.3;    ///< damping ratio of the contact dashpots, normal and tangential, 0 to 1
   double friction = 0.6;          ///< Coulomb mu of contacts; 0 is the paper
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
-  double crushEfficiency =
-      2e-3;  ///< share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen
+  /// Share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen.
+  double crushEfficiency = 2e-3;
   double sizeModulus = 0.7;  ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
   double dustRadius = 1e-6;  ///< R_dust, radius of the largest dust grain [m]
-  double debrisSpeed =
-      0.3;  ///< relative speed of debris / speed of the element, the paper's user value, dimensionless
+  /// Relative speed of debris / speed of the element, the paper's user value, dimensionless.
+  double debrisSpeed = 0.3;
 };
 
 /// A preset by name. Throws rubble::Error naming the presets.
@@ -55,8 +55,8 @@ enum class CellJoining {
 struct Model {
   BreakCriterion breakCriterion = BreakCriterion::MohrCoulomb;
   bool rotationalStiffness = true;  ///< the springs' k_rot; off in the paper
-  bool contactBesideSpring =
-      false;                    ///< spring and contact act together on a joined pair, as printed in the paper
+  /// Spring and contact act together on a joined pair, as printed in the paper.
+  bool contactBesideSpring = false;
   bool coulombFriction = true;  ///< friction limited by mu |F_n|; off in the paper
   bool conserveDebris = true;   ///< debris keep momentum, spin and energy of their element
   DebrisSizes debrisSizes = DebrisSizes::Mass;

@@ -36,8 +36,8 @@ struct Camera {
 /// Colours are linear RGB. A white surface facing the sun sends back sunColour (the 1 / pi of a diffuse
 /// surface is in it).
 struct Lighting {
-  Eigen::Vector3f sunDirection =
-      Eigen::Vector3f(-0.55f, 0.72f, 0.42f);  ///< towards the sun, any length, y > 0
+  /// Towards the sun, any length, y > 0.
+  Eigen::Vector3f sunDirection = Eigen::Vector3f(-0.55f, 0.72f, 0.42f);
   Eigen::Vector3f sunColour = Eigen::Vector3f(2.75f, 2.5f, 2.15f);
   Eigen::Vector3f skyAmbient = Eigen::Vector3f(0.34f, 0.41f, 0.52f);     ///< from straight above, on surfaces
   Eigen::Vector3f groundAmbient = Eigen::Vector3f(0.2f, 0.18f, 0.155f);  ///< from straight below, on surfaces

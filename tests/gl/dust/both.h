@@ -9,6 +9,7 @@
 #include "dust/cpu/cpu_dust.h"
 #include "dust/gl/gl_dust.h"
 #include "gl/context.h"
+#include "support/folders.h"
 
 namespace rubble::test {
 
@@ -16,7 +17,7 @@ class Both : public GlTest {
  protected:
   void make(const DustGridDef& def) {
     m_cpu = std::make_unique<dust::CpuDust>(def);
-    m_gl = std::make_unique<dust::GlDust>(def, RUBBLE_SHADER_DIR);
+    m_gl = std::make_unique<dust::GlDust>(def, test::shaderFolder());
   }
   void TearDown() override { m_gl.reset(); }
 
@@ -57,7 +58,7 @@ class Both : public GlTest {
     for (std::size_t i = 0; i < a.size(); ++i) {
       const double e = std::abs(double{a[i]} - double{b[i]});
       if (!(e <= d.most)) d.most = e;  // a NaN stays
-      d.mean += e / static_cast<double>(a.size());
+      d.mean += e / double(a.size());
       d.scale = std::max(d.scale, std::abs(double{a[i]}));
     }
     return d;
@@ -66,7 +67,7 @@ class Both : public GlTest {
   void expectSame(dust::Field field, double tolerance) const {
     const Difference d = compare(field);
     EXPECT_GT(d.scale, 0);
-    EXPECT_LE(d.most, tolerance * d.scale) << "field " << static_cast<int>(field) << ", largest " << d.scale;
+    EXPECT_LE(d.most, tolerance * d.scale) << "field " << int(field) << ", largest " << d.scale;
   }
 
   std::unique_ptr<dust::CpuDust> m_cpu;

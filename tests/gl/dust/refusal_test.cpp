@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "gl/dust/both.h"
+#include "support/folders.h"
 
 namespace rubble::test {
 namespace {
@@ -41,11 +42,11 @@ TEST_F(DustRefusal, ReportsTheLogOfAKernelThatDoesNotBuild) {
 TEST_F(DustRefusal, ChecksTheDefinitionAsTheCpuDoes) {
   DustGridDef def = grid();
   def.resolution = 33;
-  EXPECT_NE(refusalOf(def, RUBBLE_SHADER_DIR).find("resolution"), std::string::npos);
+  EXPECT_NE(refusalOf(def, test::shaderFolder()).find("resolution"), std::string::npos);
 }
 
 TEST(DustWithoutContext, IsRefused) {
-  EXPECT_NE(refusalOf(DustGridDef{}, RUBBLE_SHADER_DIR).find("OpenGL 4.3"), std::string::npos);
+  EXPECT_NE(refusalOf(DustGridDef{}, test::shaderFolder()).find("OpenGL 4.3"), std::string::npos);
 }
 
 }  // namespace

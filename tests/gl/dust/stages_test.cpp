@@ -26,7 +26,7 @@ class DustKernel : public Both {
       for (int y = 0; y < n; ++y) {
         for (int x = 0; x < n; ++x) {
           const auto at = [n](int i, float waves, float phase) {
-            return std::sin(6.2832f * waves * (static_cast<float>(i) + 0.5f) / static_cast<float>(n) + phase);
+            return std::sin(6.2832f * waves * (float(i) + 0.5f) / float(n) + phase);
           };
           velocity.insert(velocity.end(),
                           {speed * at(y, 1, 0.3f) * at(z, 2, 1), speed * at(x, 2, 0) * at(z, 1, 2),

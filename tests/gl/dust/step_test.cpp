@@ -14,8 +14,8 @@ class DustStep : public Both {
     if (step >= 10) return {};
     std::vector<DustSource> list;
     for (int i = 0; i < 20; ++i) {
-      const float a = 0.7f * static_cast<float>(i + step);
-      list.push_back({{0.5f * std::cos(a), 0.3f + 0.05f * static_cast<float>(i), 0.5f * std::sin(a)},
+      const float a = 0.7f * float(i + step);
+      list.push_back({{0.5f * std::cos(a), 0.3f + 0.05f * float(i), 0.5f * std::sin(a)},
                       {2 * std::cos(a), 1, 2 * std::sin(a)},
                       0.01f,
                       1e-5f});
@@ -29,7 +29,7 @@ class DustStep : public Both {
     body.kind = DustObstacle::Kind::Box;
     body.halfExtents = {0.5f, 0.3f, 0.4f};
     body.velocity = {0, -3, 0};
-    body.position = {0.2f, 1.8f - 3 * kStep * static_cast<float>(step - 5), 0.1f};
+    body.position = {0.2f, 1.8f - 3 * kStep * float(step - 5), 0.1f};
     return {body};
   }
   void run(DustGrid& grid, int from, int to) {
@@ -133,7 +133,7 @@ TEST_F(DustStep, OffersItsDensityToTheRenderer) {
   run(*m_gl, 0, 3);
   EXPECT_EQ(before, m_gl->densityBuffer());
   EXPECT_EQ(m_cpu->densityBuffer(), 0u);
-  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
 }  // namespace

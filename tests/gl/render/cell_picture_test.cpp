@@ -102,8 +102,8 @@ TEST_F(CellPicture, DebrisCoversTheAreaOfItsScale) {
   for (const float scale : {1.f, 0.5f, 0.25f}) {
     m_renderer->setDebris(
         std::vector<DebrisInstance>{{{0.5f, 0.5f, 0}, scale, Eigen::Quaternionf::Identity(), body, 3}});
-    const double side = 0.5 * static_cast<double>(scale) / pixel;  // of the square on screen, pixels
-    const auto covered = static_cast<double>(differentPixels(draw(), nothing));
+    const double side = 0.5 * double(scale) / pixel;  // of the square on screen, pixels
+    const auto covered = double(differentPixels(draw(), nothing));
     EXPECT_NEAR(covered, side * side, 4 * side + 4);  // one pixel along the rim
   }
   EXPECT_EQ(m_renderer->counts().debrisTriangles, 12u);

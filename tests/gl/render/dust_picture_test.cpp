@@ -55,8 +55,7 @@ TEST_F(DustPicture, SlabLetsThroughExpOfMinusItsOpticalDepth) {
   for (const float depth : {0.1f, 0.5f, 1.f, 2.f}) {
     fill(depth);
     // Bouguer's law. 64 steps see a uniform slab exactly; what remains is the 8-bit picture.
-    EXPECT_NEAR(centre(draw()) / clear, std::exp(-static_cast<double>(depth)), 0.02)
-        << "optical depth " << depth;
+    EXPECT_NEAR(centre(draw()) / clear, std::exp(-double(depth)), 0.02) << "optical depth " << depth;
   }
 }
 
@@ -129,7 +128,7 @@ TEST_F(DustPicture, SunThroughASlabIsWeakenedAlongItsSlant) {
     const double clear = centre(draw());
     fill(0.6f);
     m_renderer->setDust(&m_dust, m_black);
-    const double slant = 1 / static_cast<double>(sun.normalized().y());  // metres of dust on the way
+    const double slant = 1 / double(sun.normalized().y());  // metres of dust on the way
     // Half a slice is lost at the end of the light volume: 1/64 of the optical depth.
     EXPECT_NEAR(centre(draw()) / clear, std::exp(-0.6 * slant), 0.03);
   }
@@ -144,7 +143,7 @@ TEST_F(DustPicture, BothBackEndsLookTheSame) {
   const Image cpu = draw();
   glGenBuffers(1, &m_dust.buffer);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, m_dust.buffer);
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(m_dust.density.size() * sizeof(float)),
+  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(m_dust.density.size() * sizeof(float)),
                m_dust.density.data(), GL_STATIC_DRAW);
   const Image gl = draw();
   EXPECT_EQ(cpu.pixels, gl.pixels);

@@ -17,8 +17,8 @@ TEST_F(LightPicture, ShadowLeavesTheAmbientLight) {
   const Image shaded = draw();
   // Light on the ground: ambient from above, and the sun at right angles.
   for (int channel = 0; channel < 3; ++channel) {
-    const double ambient = static_cast<double>(m_lighting.skyAmbient[channel]);
-    const double expected = ambient / (ambient + static_cast<double>(m_lighting.sunColour[channel]));
+    const double ambient = double(m_lighting.skyAmbient[channel]);
+    const double expected = ambient / (ambient + double(m_lighting.sunColour[channel]));
     const double ratio =
         light(shaded, kWidth / 2, kHeight / 2, channel) / light(sunny, kWidth / 2, kHeight / 2, channel);
     EXPECT_NEAR(ratio, expected, 0.04 * expected);  // the 8-bit picture's steps at the dark end

@@ -6,9 +6,10 @@
 #include <memory>
 
 #include "gl/context.h"
-#include "gl/render/random.h"
 #include "rubble/render.h"
+#include "support/folders.h"
 #include "support/grid_asset.h"
+#include "unit/render/random.h"
 
 namespace rubble::test {
 
@@ -17,8 +18,8 @@ class Picture : public GlTest {
   static constexpr int kWidth = 240, kHeight = 180;
 
   void prepare() override {
-    m_renderer =
-        std::make_unique<Renderer>(RendererDef{.shaderDirectory = RUBBLE_SHADER_DIR, .shadowMapSize = 1024});
+    m_renderer = std::make_unique<Renderer>(
+        RendererDef{.shaderDirectory = test::shaderFolder(), .shadowMapSize = 1024});
     m_framebuffer = std::make_unique<Framebuffer>(kWidth, kHeight);
     m_lighting.toneCurve = false;
     m_lighting.exposure = 0.3f;  // keeps everything below white
@@ -39,15 +40,15 @@ class Picture : public GlTest {
   double light(const Image& image, int x, int y, int channel = 1) const {
     const double v = at(image, x, y, channel) / 255.0;
     const double linear = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    return linear / static_cast<double>(m_lighting.exposure);
+    return linear / double(m_lighting.exposure);
   }
   static int at(const Image& image, int x, int y, int channel) {
-    return image.pixels[static_cast<std::size_t>(4 * (y * image.width + x) + channel)];
+    return image.pixels[std::size_t(4 * (y * image.width + x) + channel)];
   }
   static double meanDifference(const Image& a, const Image& b) {  // of 255
     double sum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
-    return sum / static_cast<double>(a.pixels.size());
+    return sum / double(a.pixels.size());
   }
   static std::size_t differentPixels(const Image& a, const Image& b, int tolerance = 2) {
     std::size_t count = 0;

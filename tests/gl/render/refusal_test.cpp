@@ -1,4 +1,5 @@
 #include "gl/render/picture.h"
+#include "support/folders.h"
 
 namespace rubble::test {
 namespace {
@@ -23,10 +24,10 @@ TEST_F(Refusal, NamesTheMissingShader) {
 
 TEST_F(Refusal, NamesTheBadSetting) {
   const auto make = [](const RendererDef& def) { return refusal([&] { Renderer renderer(def); }); };
-  EXPECT_NE(make({.shaderDirectory = RUBBLE_SHADER_DIR, .samples = 3}).find("samples"), std::string::npos);
-  EXPECT_NE(make({.shaderDirectory = RUBBLE_SHADER_DIR, .shadowMapSize = 1}).find("shadowMapSize"),
+  EXPECT_NE(make({.shaderDirectory = test::shaderFolder(), .samples = 3}).find("samples"), std::string::npos);
+  EXPECT_NE(make({.shaderDirectory = test::shaderFolder(), .shadowMapSize = 1}).find("shadowMapSize"),
             std::string::npos);
-  EXPECT_NE(make({.shaderDirectory = RUBBLE_SHADER_DIR, .dustSteps = 0}).find("dustSteps"),
+  EXPECT_NE(make({.shaderDirectory = test::shaderFolder(), .dustSteps = 0}).find("dustSteps"),
             std::string::npos);
   EXPECT_THROW(Framebuffer(0, 10), Error);
 }

@@ -106,7 +106,7 @@ TEST_P(Cells, OuterTrianglesCoverTheSurface) {
                 2;
   double faces = 0;
   for (const CellFace& face : m_asset.faces)
-    if (face.neighbour == kNoElement) faces += static_cast<double>(face.area);
+    if (face.neighbour == kNoElement) faces += double(face.area);
   EXPECT_NEAR(faces, expected, 1e-5 * expected);  // areas are floats
 }
 
@@ -121,8 +121,7 @@ TEST_P(Cells, HaveEachInnerFaceTwice) {
   for (const auto& [pair, face] : faces) {
     const auto opposite = faces.find({pair.second, pair.first});
     ASSERT_NE(opposite, faces.end());
-    EXPECT_NEAR(face->area, opposite->second->area,
-                1e-6f * static_cast<float>(m_asset.spacing() * m_asset.spacing()));
+    EXPECT_NEAR(face->area, opposite->second->area, 1e-6f * float(m_asset.spacing() * m_asset.spacing()));
     EXPECT_LT((face->normal + opposite->second->normal).norm(), 1e-6f);
   }
 }
@@ -137,8 +136,8 @@ TEST_P(Cells, FaceAreasCancel) {
     double outer = 0;
     for (const CellFace& face : m_asset.cellFaces(i)) {
       sum += (face.area * face.normal).cast<double>();
-      total += static_cast<double>(face.area);
-      if (face.neighbour == kNoElement) outer += static_cast<double>(face.area);
+      total += double(face.area);
+      if (face.neighbour == kNoElement) outer += double(face.area);
     }
     // The caps' normals are those of the bisectors, right to the sites' jitter of 1e-6 r.
     EXPECT_LT(sum.norm(), 1e-4 * total + curvature * outer) << "cell " << i;
@@ -154,7 +153,7 @@ TEST(Cells, VolumesAreThoseOfTheNearestElement) {
   constexpr int kSamples = 100000;
   std::vector<int> hits(asset.elementCount(), 0);
   std::mt19937_64 generator(7);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
   for (int inside = 0; inside < kSamples;) {
     const Eigen::Vector3d p(2 * uniform(), 2 * uniform(), 0.5 * uniform());
     if (p.x() > 1 && p.y() > 1) continue;

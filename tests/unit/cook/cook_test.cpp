@@ -129,7 +129,7 @@ TEST(Cook, IgnoresVerticesThatNoTriangleUses) {
 TEST(Cook, CutsTrianglesWithoutArea) {
   SurfaceMesh mesh =
       boxMesh({1, 1, 1});  // triangles 0 and 1, {0, 2, 3} and {0, 3, 1}, meet in the diagonal 0-3
-  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto middle = std::uint32_t(mesh.vertices.size());
   mesh.vertices.emplace_back(0, 0, -0.5);
   mesh.triangles[0] = {0, 2, 3};
   mesh.triangles.push_back({0, 3, middle});  // flat: its three corners are on the diagonal

@@ -10,7 +10,8 @@
 #include "cook/triangulation.h"
 #include "unit/cook/shapes.h"
 
-namespace rubble::cooking {
+namespace rubble::test {
+using namespace cooking;
 namespace {
 
 std::vector<Eigen::Vector3d> lattice(int n) {
@@ -53,7 +54,7 @@ TEST(RestrictedVoronoi, StaysClosedForManySeeds) {
   const CheckedMesh mesh = checkMesh(test::torus(1, 0.3, 24, 12));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     std::mt19937_64 generator(seed);
-    const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
     std::vector<Eigen::Vector3d> sites;
     while (sites.size() < 150) {
       const Eigen::Vector3d p(2.6 * uniform() - 1.3, 2.6 * uniform() - 1.3, 0.6 * uniform() - 0.3);
@@ -109,7 +110,7 @@ TEST(Triangulation, OfACombKeepsItsArea) {
   }
   places.emplace_back(20, 0, 0);
   places.emplace_back(0, 0, 0);
-  for (std::size_t k = places.size(); k-- > 0;) loop.push_back(static_cast<std::uint32_t>(k));
+  for (std::size_t k = places.size(); k-- > 0;) loop.push_back(std::uint32_t(k));
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangulate(std::span(&loop, 1), places, Eigen::Vector3d::UnitZ(), triangles);
   EXPECT_NEAR(areaOf(triangles, places), 20 * 1 + 10 * 2, 1e-12);
@@ -134,4 +135,4 @@ TEST(HilbertOrder, StepsToANeighbourOnALattice) {
 }
 
 }  // namespace
-}  // namespace rubble::cooking
+}  // namespace rubble::test

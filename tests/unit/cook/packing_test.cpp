@@ -87,7 +87,7 @@ TEST(GridDistance, AgreesWithTheTorus) {
   const double facets =
       0.3 * (1 - std::cos(std::numbers::pi / 48)) + 1.3 * (1 - std::cos(std::numbers::pi / 96));
   std::mt19937_64 generator(3);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
   for (int k = 0; k < 2000; ++k) {
     const Eigen::Vector3d p(2.8 * uniform() - 1.4, 2.8 * uniform() - 1.4, 0.8 * uniform() - 0.4);
     const double expected = std::hypot(std::hypot(p.x(), p.y()) - 1, p.z()) - 0.3;
@@ -102,7 +102,7 @@ TEST(TriangleTree, FindsWhatASearchThroughAllTrianglesFinds) {
   const cooking::CheckedMesh mesh = cooking::checkMesh(torus(1, 0.3, 20, 10));
   const cooking::TriangleTree tree(mesh);
   std::mt19937_64 generator(5);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
   for (int k = 0; k < 300; ++k) {
     const Eigen::Vector3d p(4 * uniform() - 2, 4 * uniform() - 2, 2 * uniform() - 1);
     double best = 1e9;
@@ -121,7 +121,7 @@ TEST(TriangleTree, ClosestPointOfATriangleIsCloserThanItsOtherPoints) {
   const Eigen::Vector3d b(2, 0.1, 0);
   const Eigen::Vector3d c(0.3, 1, 0.2);
   std::mt19937_64 generator(9);
-  const auto uniform = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
   for (int k = 0; k < 500; ++k) {
     const Eigen::Vector3d p(6 * uniform() - 2, 4 * uniform() - 2, 4 * uniform() - 2);
     const double found = (cooking::closestOnTriangle(p, a, b, c) - p).norm();

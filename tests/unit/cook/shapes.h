@@ -17,7 +17,7 @@ namespace rubble::test {
 inline SurfaceMesh extrude(const std::vector<Eigen::Vector2d>& outline,
                            const std::vector<std::array<std::uint32_t, 3>>& triangles, double height) {
   SurfaceMesh mesh;
-  const auto n = static_cast<std::uint32_t>(outline.size());
+  const auto n = std::uint32_t(outline.size());
   for (const double z : {0.0, height})
     for (const Eigen::Vector2d& p : outline) mesh.vertices.emplace_back(p.x(), p.y(), z);
   for (const auto& [a, b, c] : triangles) {
@@ -76,7 +76,7 @@ inline SurfaceMesh ball(double radius, std::uint32_t bands) {
       mesh.vertices.emplace_back(radius * std::sin(polar) * std::cos(azimuth),
                                  radius * std::sin(polar) * std::sin(azimuth), radius * std::cos(polar));
     }
-  const auto north = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto north = std::uint32_t(mesh.vertices.size());
   mesh.vertices.emplace_back(0, 0, radius);
   mesh.vertices.emplace_back(0, 0, -radius);
   for (std::uint32_t j = 0; j < around; ++j) {
@@ -98,7 +98,7 @@ inline SurfaceMesh reversed(SurfaceMesh mesh) {
 }
 
 inline SurfaceMesh joined(SurfaceMesh mesh, const SurfaceMesh& other) {
-  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto shift = std::uint32_t(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + shift, b + shift, c + shift});
   return mesh;
@@ -138,7 +138,7 @@ inline CookOptions wallOptions() {
 
 inline std::string fileBytes(const std::filesystem::path& file) {
   std::string bytes(std::filesystem::file_size(file), '\0');
-  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::ifstream(file, std::ios::binary).read(bytes.data(), std::streamsize(bytes.size()));
   return bytes;
 }
 

@@ -69,7 +69,7 @@ TEST(Springs, AreSortedPairsWithTheAreaOfTheirFaceOnBothSides) {
       for (const CellFace& face : asset.cellFaces(own)) {
         if (face.neighbour != other) continue;
         ++found;
-        EXPECT_NEAR(static_cast<double>(face.area), spring.area, 1e-6 * spring.area);
+        EXPECT_NEAR(double(face.area), spring.area, 1e-6 * spring.area);
       }
       EXPECT_EQ(found, 1);
     }
@@ -79,7 +79,7 @@ TEST(Springs, AreSortedPairsWithTheAreaOfTheirFaceOnBothSides) {
 // GEOMETRY of packed elements: 11 to 13 faces a cell before slivers go; a lattice of cubes would have 6.
 TEST(Springs, OfAPackedCubeAreAboutElevenAnElement) {
   const Asset asset = cook(boxMesh({1, 1, 1}), optionsFor(1000));
-  const double each = 2.0 * static_cast<double>(asset.springs.size()) / 1000;
+  const double each = 2.0 * double(asset.springs.size()) / 1000;
   EXPECT_GT(each, 9.5);
   EXPECT_LT(each, 13.5);
 }

@@ -7,7 +7,8 @@
 
 #include "rubble/error.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 constexpr double kWorkIndex = 13.5;  // kWh/t, concrete-like rock
@@ -61,4 +62,4 @@ TEST(Bond, RefusesConstantsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "debris/spawn.h"
-#include "random.h"
+#include "unit/debris/random.h"
 
 namespace rubble::test {
 
 struct TestCell {
   std::vector<CellFace> faces;
-  debris::CrushedElement element;  ///< geometry, mass and inertia only
+  base::CrushedElement element;  ///< geometry, mass and inertia only
 };
 
 /// A cube of the given edge [m] about `centre`; its element fits inside.
@@ -21,7 +21,7 @@ inline TestCell cubeCell(double edge, double density,
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector3d normal = side * Eigen::Vector3d::Unit(axis);
-      cell.faces.push_back({kNoElement, static_cast<float>(edge * edge), normal.cast<float>(),
+      cell.faces.push_back({kNoElement, float(edge * edge), normal.cast<float>(),
                             Eigen::Vector3d(centre + 0.5 * edge * normal).cast<float>()});
     }
   }
@@ -37,7 +37,7 @@ inline TestCell cubeCell(double edge, double density,
 /// A cell of `count` faces at random: not even closed, as lopsided as it comes.
 inline TestCell randomCell(Random& random, int count) {
   TestCell cell;
-  debris::CrushedElement& e = cell.element;
+  base::CrushedElement& e = cell.element;
   e.radius = random.uniform(0.005, 0.05);
   e.restCentre = random.inBall(2);
   for (int n = 0; n < count; ++n) {
@@ -54,13 +54,13 @@ inline TestCell randomCell(Random& random, int count) {
 }
 
 /// Puts an element into some place and motion.
-inline void setInMotion(Random& random, debris::CrushedElement& element) {
+inline void setInMotion(Random& random, base::CrushedElement& element) {
   element.centre = random.inBall(1);
   element.orientation = random.rotation();
   element.velocity = random.inBall(20);
   element.spin = random.inBall(100);
   element.releasedEnergy = random.uniform(0, 1) * element.mass;
-  element.element = static_cast<std::uint32_t>(random.uniform(0, 1e6));
+  element.element = std::uint32_t(random.uniform(0, 1e6));
 }
 
 }  // namespace rubble::test

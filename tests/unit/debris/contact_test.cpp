@@ -3,10 +3,11 @@
 #include <cmath>
 
 #include "debris/debris_system.h"
-#include "random.h"
-#include "surroundings.h"
+#include "unit/debris/random.h"
+#include "unit/debris/surroundings.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 using Eigen::Vector3d;
@@ -43,15 +44,15 @@ TEST(Contact, BouncesRiseToTheSquareOfTheRestitution) {
     const DebrisPiece& piece = system.pieces()[0];
     const bool rises = piece.velocity.y() > 0;
     if (rising && !rises) {  // just past the top: h - v^2 / 2g is lost since
-      const double v = static_cast<double>(piece.velocity.y());
-      const double height = static_cast<double>(piece.position.y()) - kRadius + v * v / (2 * kGravity);
+      const double v = double(piece.velocity.y());
+      const double height = double(piece.position.y()) - kRadius + v * v / (2 * kGravity);
       expected *= restitution * restitution;
       // The chord of a step is up to g dt^2 / 8 = 2e-5 m off the parabola, and each bounce starts 1e-5 m up.
       EXPECT_NEAR(height, expected, 1e-4) << bounces;
       ++bounces;
     }
     rising = rises;
-    before = static_cast<double>(piece.velocity.y());
+    before = double(piece.velocity.y());
   }
   EXPECT_EQ(bounces, 4);
   EXPECT_LE(before, 0);
@@ -62,7 +63,7 @@ TEST(Contact, FastPieceDoesNotPassThroughAThinWall) {
   addOne(system, test::stone({0, 1, 0}, {0, -5000, 0}));
   Surroundings ground({kGround});
   system.step(1.0 / 30, kDown, ground);
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].position.y()), kRadius, 2e-5);
+  EXPECT_NEAR(double(system.pieces()[0].position.y()), kRadius, 2e-5);
 }
 
 TEST(Contact, SlidingStopsAfterVSquaredOverTwoMuG) {
@@ -75,7 +76,7 @@ TEST(Contact, SlidingStopsAfterVSquaredOverTwoMuG) {
       Surroundings ground({kGround});
       for (int i = 0; i < 240 * 4; ++i) system.step(kTick, kDown, ground);
       const Eigen::Vector3f p = system.pieces()[0].position;
-      const double way = std::hypot(static_cast<double>(p.x()), static_cast<double>(p.z()));
+      const double way = std::hypot(double(p.x()), double(p.z()));
       EXPECT_NEAR(way, speed * speed / (2 * friction * kGravity), speed * kTick) << "to one step's way";
       EXPECT_EQ(system.restingCount(), 1u);
     }
@@ -112,7 +113,7 @@ TEST(Contact, RestsOnAPlaneForEver) {
   const std::uint64_t hash = system.hash();
   ground.sweeps = 0;
   for (const DebrisPiece& piece : system.pieces()) {
-    EXPECT_NEAR(static_cast<double>(piece.position.y()), kRadius, 2e-5);
+    EXPECT_NEAR(double(piece.position.y()), kRadius, 2e-5);
     EXPECT_TRUE(piece.resting);
     EXPECT_EQ(piece.velocity, Eigen::Vector3f::Zero());
     EXPECT_EQ(piece.spin, Eigen::Vector3f::Zero());
@@ -129,7 +130,7 @@ TEST(Contact, TinyAndLongStepsComeToRestToo) {
     Surroundings ground({kGround});
     for (int i = 0; i < std::lround(3 / tick); ++i) system.step(tick, kDown, ground);
     EXPECT_EQ(system.restingCount(), 1u) << tick;
-    EXPECT_NEAR(static_cast<double>(system.pieces()[0].position.y()), kRadius, 3e-5) << tick;
+    EXPECT_NEAR(double(system.pieces()[0].position.y()), kRadius, 3e-5) << tick;
   }
 }
 
@@ -140,7 +141,7 @@ TEST(Contact, CornerHoldsAPiece) {
       {{.normal = Vector3d::UnitX()}, {.normal = Vector3d::UnitY()}, {.normal = Vector3d::UnitZ()}});
   for (int i = 0; i < 240 * 5; ++i) system.step(kTick, kDown, corner);
   const Eigen::Vector3f p = system.pieces()[0].position;
-  EXPECT_GE(p.minCoeff(), static_cast<float>(kRadius));
+  EXPECT_GE(p.minCoeff(), float(kRadius));
   EXPECT_EQ(system.restingCount(), 1u);
 }
 
@@ -149,7 +150,7 @@ TEST(Contact, PieceSunkenIntoASurfaceIsPutOutside) {
   addOne(system, test::stone({0, -0.2, 0}, Vector3d::Zero()));
   Surroundings ground({kGround});
   system.step(kTick, kDown, ground);
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].position.y()), kRadius, 2e-5);
+  EXPECT_NEAR(double(system.pieces()[0].position.y()), kRadius, 2e-5);
   EXPECT_LT(system.motion().kinetic, 1e-12) << "and gets no speed from it";
 }
 
@@ -162,7 +163,7 @@ TEST(Contact, RisingPlatformLiftsAPiece) {
     system.step(kTick, kDown, platform);
     platform.planes[0].offset += 0.5 * kTick;
   }
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].position.y()), kRadius + 0.5, 0.5 * kTick + 1e-4);
+  EXPECT_NEAR(double(system.pieces()[0].position.y()), kRadius + 0.5, 0.5 * kTick + 1e-4);
   EXPECT_EQ(system.movingCount(), 1u) << "what rides along is not at rest";
 }
 
@@ -172,7 +173,7 @@ TEST(Contact, ConveyorTakesAPieceToItsSpeed) {
   Surroundings belt({TestPlane{.velocity = {1.5, 0, 0}, .surface = 0}});
   belt.surfaces = 1;
   for (int i = 0; i < 240; ++i) system.step(kTick, kDown, belt);
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].velocity.x()), 1.5, 1e-6);
+  EXPECT_NEAR(double(system.pieces()[0].velocity.x()), 1.5, 1e-6);
 }
 
 TEST(Contact, SurfaceReceivesWhatThePieceLoses) {
@@ -198,7 +199,7 @@ TEST(Contact, LightBodyYields) {
   body.surfaces = 1;
   system.step(kTick, Vector3d::Zero(), body);
   const Exchange exchange = system.takeExchange();
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].velocity.y()), 0, 1e-6);
+  EXPECT_NEAR(double(system.pieces()[0].velocity.y()), 0, 1e-6);
   EXPECT_NEAR(system.surfaceImpulses()[0].linear.y(), -0.04, 1e-12);
   EXPECT_NEAR(exchange.workOnSurfaces, 0.08, 1e-12) << "its whole kinetic energy";
   EXPECT_NEAR(exchange.contact.energy, -0.08, 1e-12);
@@ -238,4 +239,4 @@ TEST(Contact, NeverGivesEnergyFromSurfacesThatStandStill) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -4,10 +4,11 @@
 
 #include <vector>
 
-#include "random.h"
-#include "surroundings.h"
+#include "unit/debris/random.h"
+#include "unit/debris/surroundings.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 using Eigen::Vector3d;
@@ -193,7 +194,7 @@ TEST(Rest, PieceFallsWhenItsSupportIsGone) {
   EXPECT_EQ(system.wakeSupports({&support, 1}), 1u);
   Surroundings nothing;
   for (int i = 0; i < 240; ++i) system.step(kTick, kDown, nothing);
-  EXPECT_NEAR(static_cast<double>(system.pieces()[0].position.y()), 1 + 0.005 - 9.81 / 2, 1e-4);
+  EXPECT_NEAR(double(system.pieces()[0].position.y()), 1 + 0.005 - 9.81 / 2, 1e-4);
 }
 
 TEST(Rest, BoxWakesWhatIsInIt) {
@@ -262,4 +263,4 @@ TEST(DebrisStep, MemoryIsTakenAtLoad) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -7,9 +7,10 @@
 #include <numbers>
 
 #include "debris/debris_system.h"
-#include "surroundings.h"
+#include "unit/debris/surroundings.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 using Eigen::Vector3d;
@@ -45,7 +46,7 @@ DebrisPiece fallen(double radius, double seconds, double tick, const Air& air, c
   const DebrisParcel parcel = test::stone(Vector3d::Zero(), velocity, radius);
   system.add({&parcel, 1});
   test::Surroundings nothing;
-  const int steps = static_cast<int>(std::lround(seconds / tick));
+  const int steps = int(std::lround(seconds / tick));
   for (int i = 0; i < steps; ++i) system.step(tick, kDown, nothing);
   return system.pieces()[0];
 }
@@ -64,8 +65,7 @@ TEST(Flight, GrainsReachTheTerminalSpeedOfTheDragLaw) {
   // From dust that floats to stones in Newton's regime; the closed form at the fine end is Stokes' 2/9 rho g
   // R^2 / mu.
   for (const double radius : {5e-6, 5e-5, 3e-4, 2e-3, 1e-2, 5e-2}) {
-    const double speed =
-        -static_cast<double>(fallen(radius, 60, 1.0 / 30, Air{}, Vector3d::Zero()).velocity.y());
+    const double speed = -double(fallen(radius, 60, 1.0 / 30, Air{}, Vector3d::Zero()).velocity.y());
     EXPECT_NEAR(speed / terminalSpeed(radius), 1, 1e-5) << radius;
   }
   const double stokes = 2.0 / 9 * kDensity * kGravity * 5e-6 * 5e-6 / 1.8e-5;
@@ -74,7 +74,7 @@ TEST(Flight, GrainsReachTheTerminalSpeedOfTheDragLaw) {
 
 TEST(Flight, StepsOfTenSecondsStillReachTheTerminalSpeed) {
   for (const double radius : {5e-6, 2e-3, 5e-2}) {
-    const double speed = -static_cast<double>(fallen(radius, 600, 10, Air{}, Vector3d::Zero()).velocity.y());
+    const double speed = -double(fallen(radius, 600, 10, Air{}, Vector3d::Zero()).velocity.y());
     EXPECT_NEAR(speed / terminalSpeed(radius), 1, 1e-5) << radius;
   }
 }
@@ -148,4 +148,4 @@ TEST(Flight, SpinTurnsThePieceAtItsRate) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -6,12 +6,13 @@
 #include <limits>
 #include <vector>
 
-#include "cells.h"
 #include "debris/debris_system.h"
 #include "rubble/error.h"
-#include "surroundings.h"
+#include "unit/debris/cells.h"
+#include "unit/debris/surroundings.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 using Eigen::Vector3d;
@@ -26,18 +27,18 @@ bool isFinite(const Motion& m) {
 }
 
 TEST(HostileSpawn, RefusesElementsThatAreNotFiniteOrHaveNoMass) {
-  const std::vector<std::function<void(CrushedElement&, double)>> fields = {
-      [](CrushedElement& e, double x) { e.centre.x() = x; },
-      [](CrushedElement& e, double x) { e.velocity.y() = x; },
-      [](CrushedElement& e, double x) { e.spin.z() = x; },
-      [](CrushedElement& e, double x) { e.mass = x; },
-      [](CrushedElement& e, double x) { e.inertia = x; },
-      [](CrushedElement& e, double x) { e.volume = x; },
-      [](CrushedElement& e, double x) { e.radius = x; },
-      [](CrushedElement& e, double x) { e.maxRadius = x; },
-      [](CrushedElement& e, double x) { e.orientation.w() = x; },
-      [](CrushedElement& e, double x) { e.releasedEnergy = x; },
-      [](CrushedElement& e, double x) { e.restCentre.x() = x; }};
+  const std::vector<std::function<void(base::CrushedElement&, double)>> fields = {
+      [](base::CrushedElement& e, double x) { e.centre.x() = x; },
+      [](base::CrushedElement& e, double x) { e.velocity.y() = x; },
+      [](base::CrushedElement& e, double x) { e.spin.z() = x; },
+      [](base::CrushedElement& e, double x) { e.mass = x; },
+      [](base::CrushedElement& e, double x) { e.inertia = x; },
+      [](base::CrushedElement& e, double x) { e.volume = x; },
+      [](base::CrushedElement& e, double x) { e.radius = x; },
+      [](base::CrushedElement& e, double x) { e.maxRadius = x; },
+      [](base::CrushedElement& e, double x) { e.orientation.w() = x; },
+      [](base::CrushedElement& e, double x) { e.releasedEnergy = x; },
+      [](base::CrushedElement& e, double x) { e.restCentre.x() = x; }};
   Spawner spawner(Material{}, Model{}, 1);
   DebrisBatch batch;
   for (const auto& set : fields) {
@@ -77,7 +78,7 @@ TEST(HostileSpawn, DegenerateCellsStayFiniteAndKeepTheirMomenta) {
     }
     if (kind == 3) cell.element.inertia = 0;
     spawner.spawn(cell.element, cell.faces, batch);
-    const CrushedElement& e = cell.element;
+    const base::CrushedElement& e = cell.element;
     ASSERT_TRUE(isFinite(batch.piecesMotion)) << kind;
     const Motion whole = motionOf(e.mass, e.inertia, e.centre, e.velocity, e.spin);
     const Vector3d angular = batch.piecesMotion.angular + batch.dustMotion.angular - whole.angular;
@@ -207,4 +208,4 @@ TEST(HostileSystem, RefusesImpossibleHits) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -13,7 +13,7 @@ class Random {
   explicit Random(std::uint64_t seed) : m_engine(seed) {}
 
   double uniform(double least, double most) {
-    return least + (most - least) * static_cast<double>(m_engine() >> 11) * 0x1p-53;
+    return least + (most - least) * double(m_engine() >> 11) * 0x1p-53;
   }
   Eigen::Vector3d inBall(double radius) {
     for (;;) {

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "debris/bond.h"
-#include "random.h"
 #include "rubble/error.h"
+#include "unit/debris/random.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 constexpr SizeLaw kLaw{8.5e-3, 1e-6, 0.7};
@@ -164,7 +165,7 @@ TEST(SizeOffset, SpreadsElementsEvenly) {
     const double u = sizeOffset(1, 0, e);
     ASSERT_GE(u, 0);
     ASSERT_LT(u, 1);
-    ++count[static_cast<std::size_t>(u * kBins)];
+    ++count[std::size_t(u * kBins)];
   }
   double chiSquare = 0;
   for (const int n : count) chiSquare += std::pow(n - kElements / kBins, 2) / (kElements / kBins);
@@ -194,4 +195,4 @@ TEST(SizeLaw, RefusesNumbersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "cells.h"
+#include "unit/debris/cells.h"
 
-namespace rubble::debris {
+namespace rubble::test {
+using namespace debris;
 namespace {
 
 using Eigen::Vector3d;
@@ -21,7 +22,7 @@ Model paperModel() {
   return model;
 }
 
-Motion motionOfElement(const CrushedElement& e) {
+Motion motionOfElement(const base::CrushedElement& e) {
   return motionOf(e.mass, e.inertia, e.centre, e.velocity, e.spin);
 }
 
@@ -71,20 +72,20 @@ class ConservingSpawn : public testing::TestWithParam<DebrisSizes> {
 };
 
 TEST_P(ConservingSpawn, KeepsMass) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     EXPECT_NEAR(sumsOf(batch, e.centre).mass + batch.dustMotion.mass, e.mass, 1e-12 * e.mass);
   });
 }
 
 TEST_P(ConservingSpawn, KeepsCentreOfMass) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     // Places are of order 1 m and rounded at 2e-16 of that; r is of order 1e-2 m.
     EXPECT_LT(sumsOf(batch, e.centre).centre.norm(), 1e-12 * e.mass * e.radius + 1e-15 * e.mass);
   });
 }
 
 TEST_P(ConservingSpawn, KeepsLinearMomentum) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     const Sums sums = sumsOf(batch, e.centre);
     const Vector3d error = sums.linear + batch.dustMotion.linear - e.mass * e.velocity;
     EXPECT_LT(error.norm(), 1e-12 * (sums.speeds + e.mass * e.velocity.norm()));
@@ -92,7 +93,7 @@ TEST_P(ConservingSpawn, KeepsLinearMomentum) {
 }
 
 TEST_P(ConservingSpawn, KeepsAngularMomentum) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     const Sums sums = sumsOf(batch, e.centre);
     const Vector3d dust = batch.dustMotion.angularAbout(e.centre);
     const Vector3d error = sums.angular + dust - e.inertia * e.spin;
@@ -103,7 +104,7 @@ TEST_P(ConservingSpawn, KeepsAngularMomentum) {
 
 TEST_P(ConservingSpawn, TakesNoMoreEnergyThanTheElementHadAndItsSpringsReleased) {
   int capped = 0;
-  forRandomElements([&](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([&](const base::CrushedElement& e, const DebrisBatch& batch) {
     const double before = motionOfElement(e).kinetic;
     const double after = sumsOf(batch, e.centre).kinetic + batch.dustMotion.kinetic;
     EXPECT_LE(after, before + e.releasedEnergy + 1e-12 * (before + e.releasedEnergy));
@@ -114,7 +115,7 @@ TEST_P(ConservingSpawn, TakesNoMoreEnergyThanTheElementHadAndItsSpringsReleased)
 }
 
 TEST_P(ConservingSpawn, ReportsTheMotionOfItsPieces) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     const Sums sums = sumsOf(batch, Vector3d::Zero());
     EXPECT_NEAR(batch.piecesMotion.mass, sums.mass, 1e-14 * e.mass);
     EXPECT_LT((batch.piecesMotion.linear - sums.linear).norm(), 1e-12 * sums.speeds);
@@ -125,7 +126,7 @@ TEST_P(ConservingSpawn, ReportsTheMotionOfItsPieces) {
 }
 
 TEST_P(ConservingSpawn, DustGoesWithItsShareOfTheElementsMotion) {
-  forRandomElements([](const CrushedElement& e, const DebrisBatch& batch) {
+  forRandomElements([](const base::CrushedElement& e, const DebrisBatch& batch) {
     const Motion whole = motionOfElement(e);
     const double share = std::pow(std::min(1e-6 / e.maxRadius, 1.0), 0.7);
     EXPECT_NEAR(batch.dustShare, share, 1e-12);
@@ -144,7 +145,7 @@ TEST(Spawn, CubeWithEnergyToSpareScattersAlongItsNormals) {
   // A cube's normals and places cancel, so the closed form is v + w x o + s n at o = edge / 4 n, nothing
   // removed.
   TestCell cell = test::cubeCell(0.04, 2400, {1, 2, 3});
-  CrushedElement& e = cell.element;
+  base::CrushedElement& e = cell.element;
   e.centre = {0.5, 0.25, -1};
   e.orientation = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2) / 3);
   e.velocity = {3, 0, 4};
@@ -224,7 +225,7 @@ TEST(Spawn, CellWithoutFacesMovesOnAsOnePiece) {
 TEST(PaperSpawn, FollowsSection32ToTheLetter) {
   Random random(3);
   TestCell cell = test::randomCell(random, 14);
-  CrushedElement& e = cell.element;
+  base::CrushedElement& e = cell.element;
   test::setInMotion(random, e);
   e.maxRadius = 0.5 * e.radius;
   Material material;
@@ -249,7 +250,7 @@ TEST(PaperSpawn, MakesMomentumAndEnergyOutOfNothingAndLosesTheSpin) {
   // 5).
   TestCell cell = test::cubeCell(0.04, 2400);
   cell.faces.erase(cell.faces.begin());
-  CrushedElement& e = cell.element;
+  base::CrushedElement& e = cell.element;
   e.velocity = {10, 0, 0};
   e.spin = {0, 50, 0};
   Material material;
@@ -273,4 +274,4 @@ TEST(PaperSpawn, MakesMomentumAndEnergyOutOfNothingAndLosesTheSpin) {
 }
 
 }  // namespace
-}  // namespace rubble::debris
+}  // namespace rubble::test

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 const float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -97,4 +98,4 @@ TEST(DustSettling, SpeedIsThatOfStokes) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

@@ -4,9 +4,10 @@
 #include <bit>
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 // Bits of all that a step leaves behind.
@@ -30,8 +31,8 @@ std::vector<std::uint32_t> run(int threads) {
   const DustTotals t = grid.totals();
   for (const double v : {t.air, t.settled, t.left}) {
     const auto word = std::bit_cast<std::uint64_t>(v);
-    bits.push_back(static_cast<std::uint32_t>(word));
-    bits.push_back(static_cast<std::uint32_t>(word >> 32));
+    bits.push_back(std::uint32_t(word));
+    bits.push_back(std::uint32_t(word >> 32));
   }
   return bits;
 }
@@ -43,4 +44,4 @@ TEST(Determinism, OneTwoAndThreeThreadsGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

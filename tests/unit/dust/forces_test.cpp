@@ -4,9 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 // Velocities after the forces of one step on `flow`.
@@ -71,4 +72,4 @@ TEST(Drag, DecaysTheAirExponentially) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

@@ -10,9 +10,9 @@
 #include "dust/lattice.h"
 #include "rubble/dust.h"
 
-namespace rubble::dust::test {
+namespace rubble::test {
 
-// A cube of `side` metres on the ground, in the middle of x and z.
+/// A cube of `side` metres on the ground, in the middle of x and z.
 inline DustGridDef cube(int resolution, float side) {
   DustGridDef def;
   def.resolution = resolution;
@@ -21,13 +21,13 @@ inline DustGridDef cube(int resolution, float side) {
   return def;
 }
 
-// Centre of cell (x, y, z) [m].
+/// Centre of cell (x, y, z) [m].
 inline Eigen::Vector3d centre(const Lattice& lattice, int x, int y, int z) {
   return lattice.origin.cast<double>() + (Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Constant(0.5))
                                              .cwiseProduct(lattice.cell.cast<double>());
 }
 
-// Calls body(index, centre) for every cell.
+/// Calls body(index, centre) for every cell.
 template <class Body>
 void forCells(const Lattice& lattice, Body&& body) {
   for (int z = 0; z < lattice.n; ++z) {
@@ -37,19 +37,19 @@ void forCells(const Lattice& lattice, Body&& body) {
   }
 }
 
-// Numbers in [-1, 1) that are the same everywhere: Numerical Recipes' linear congruence.
+/// Numbers in [-1, 1) that are the same everywhere: Numerical Recipes' linear congruence.
 class Sequence {
  public:
   float next() {
     m_state = m_state * 1664525u + 1013904223u;
-    return static_cast<float>(m_state >> 8) / 8388608.0f - 1;
+    return float(m_state >> 8) / 8388608.0f - 1;
   }
 
  private:
   std::uint32_t m_state = 12345;
 };
 
-// A wall of 32 elements broken each frame: 0.32 kg a frame, thrown at up to 20 m/s in every direction.
+/// A wall of 32 elements broken each frame: 0.32 kg a frame, thrown at up to 20 m/s in every direction.
 inline std::vector<DustSource> burst(Sequence& random) {
   std::vector<DustSource> sources;
   for (int i = 0; i < 32; ++i) {
@@ -60,14 +60,14 @@ inline std::vector<DustSource> burst(Sequence& random) {
   return sources;
 }
 
-// Root of the mean square.
+/// Root of the mean square.
 inline double rms(const std::vector<float>& values) {
   double sum = 0;
   for (const float v : values) sum += double{v} * double{v};
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  return std::sqrt(sum / double(values.size()));
 }
 
-// Centre of mass of a field of one float a cell [m].
+/// Centre of mass of a field of one float a cell [m].
 inline Eigen::Vector3d centroid(const Lattice& lattice, const std::vector<float>& field) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double sum = 0;
@@ -87,4 +87,4 @@ inline void setVelocity(CpuDust& grid, const Lattice& lattice, auto&& flow) {
   grid.write(Field::Velocity, values);
 }
 
-}  // namespace rubble::dust::test
+}  // namespace rubble::test

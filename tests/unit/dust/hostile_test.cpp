@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "dust/solids.h"
-#include "grids.h"
 #include "shared/dust.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 const float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -154,4 +155,4 @@ TEST(HostileDust, WrongNumberOfValuesIsRefused) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

@@ -5,15 +5,16 @@
 #include <numeric>
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 // A ball swung through the plume at 10 m/s.
 DustObstacle ball(int frame) {
   DustObstacle o;
-  o.position = Eigen::Vector3f(-2 + 10 * static_cast<float>(frame) / 60, 1, 0);
+  o.position = Eigen::Vector3f(-2 + 10 * float(frame) / 60, 1, 0);
   o.halfExtents.x() = 0.3f;
   o.velocity = Eigen::Vector3f(10, 0, 0);
   return o;
@@ -60,4 +61,4 @@ TEST(Mass, DustTakenAwayIsAnErrorNotDustThatLeft) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

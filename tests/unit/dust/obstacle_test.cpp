@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "dust/solids.h"
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 // A wall at x in [0.25, 0.5], from side to side of a grid of 2 m.
@@ -143,4 +144,4 @@ TEST(Obstacle, DustCaughtInsideComesOut) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

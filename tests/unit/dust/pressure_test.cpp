@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "dust/cpu/multigrid.h"
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -24,8 +25,8 @@ struct Manufactured {
     test::forCells(lattice, [&](int i, const Eigen::Vector3d& at) {
       const double p =
           std::sin(kPi * (at.x() + 0.5)) * std::cos(kPi / 2 * at.y()) * std::sin(kPi * (at.z() + 0.5));
-      pressure[i] = static_cast<float>(p);
-      laplacian[i] = static_cast<float>(-2.25 * kPi * kPi * p);
+      pressure[i] = float(p);
+      laplacian[i] = float(-2.25 * kPi * kPi * p);
     });
   }
 };
@@ -33,7 +34,7 @@ struct Manufactured {
 // Root mean square of the difference to the exact pressure.
 double errorOf(int n) {
   const Manufactured m(n);
-  ThreadPool pool(1);
+  base::ThreadPool pool(1);
   Multigrid solver(m.lattice);
   solver.setAir(std::vector<float>(m.lattice.cells(), 1.0f), false, pool);
   solver.solve(m.laplacian, 12, pool);
@@ -84,7 +85,7 @@ double divergenceLeft(CpuDust& grid, const Lattice& lattice) {
 TEST(Pressure, ResidualFallsByFiveACycle) {
   for (const int n : {16, 32, 64}) {
     const Manufactured m(n);
-    ThreadPool pool(1);
+    base::ThreadPool pool(1);
     Multigrid solver(m.lattice);
     solver.setAir(std::vector<float>(m.lattice.cells(), 1.0f), false, pool);
     double last = 1;
@@ -102,7 +103,7 @@ TEST(Pressure, ThreeCyclesLeaveUnderOnePercentOfAPointSource) {
   const Lattice lattice(test::cube(32, 1));
   std::vector<float> source(lattice.cells());
   source[lattice.index(13, 10, 20)] = 1;
-  ThreadPool pool(1);
+  base::ThreadPool pool(1);
   Multigrid solver(lattice);
   solver.setAir(std::vector<float>(lattice.cells(), 1.0f), false, pool);
   solver.solve(source, 3, pool);
@@ -159,4 +160,4 @@ TEST(Projection, LeavesUnderOnePercentAroundASolid) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

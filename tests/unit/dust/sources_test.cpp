@@ -5,9 +5,10 @@
 
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 DustSource source(float x, float speed, float mass) {
@@ -60,4 +61,4 @@ TEST(Sources, DustRaisedOutsideHasLeft) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

@@ -6,14 +6,15 @@
 #include <numeric>
 #include <vector>
 
-#include "grids.h"
+#include "unit/dust/grids.h"
 
-namespace rubble::dust {
+namespace rubble::test {
+using namespace dust;
 namespace {
 
 // A bell of `width` metres around `at`, in units of 1.
 float bell(const Eigen::Vector3d& offset, double width) {
-  return static_cast<float>(std::exp(-offset.squaredNorm() / (width * width)));
+  return float(std::exp(-offset.squaredNorm() / (width * width)));
 }
 
 std::vector<float> blob(const Lattice& lattice, const Eigen::Vector3d& at, double width) {
@@ -26,8 +27,7 @@ std::vector<float> blob(const Lattice& lattice, const Eigen::Vector3d& at, doubl
 std::vector<float> uniformFaces(const Lattice& lattice, const Eigen::Vector3f& velocity) {
   std::vector<float> faces(3 * lattice.facesOfAxis());
   for (int a = 0; a < 3; ++a) {
-    std::fill_n(faces.begin() + static_cast<long>(lattice.facesOfAxis()) * a, lattice.facesOfAxis(),
-                velocity[a]);
+    std::fill_n(faces.begin() + long(lattice.facesOfAxis()) * a, lattice.facesOfAxis(), velocity[a]);
   }
   return faces;
 }
@@ -153,4 +153,4 @@ TEST(Settling, AllOfItReachesTheGround) {
 }
 
 }  // namespace
-}  // namespace rubble::dust
+}  // namespace rubble::test

@@ -1,6 +1,6 @@
-#include "dust/thread_pool.h"
+#include "base/threads.h"
 
-namespace rubble::dust {
+namespace rubble::base {
 
 ThreadPool::ThreadPool(int threads) {
   for (int part = 1; part < threads; ++part) m_threads.emplace_back([this, part] { work(part); });
@@ -14,9 +14,9 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::runPart(int part) const {
-  const std::int64_t parts = static_cast<std::int64_t>(m_threads.size()) + 1;
-  const auto begin = static_cast<int>(part * std::int64_t{m_count} / parts);
-  const auto end = static_cast<int>((part + 1) * std::int64_t{m_count} / parts);
+  const std::int64_t parts = std::int64_t(m_threads.size()) + 1;
+  const auto begin = int(part * std::int64_t{m_count} / parts);
+  const auto end = int((part + 1) * std::int64_t{m_count} / parts);
   if (begin < end) m_call(m_context, begin, end);
 }
 
@@ -24,7 +24,7 @@ void ThreadPool::dispatch(int count, Call call, void* context) {
   m_call = call;
   m_context = context;
   m_count = count;
-  m_pending.store(static_cast<int>(m_threads.size()), std::memory_order_relaxed);
+  m_pending.store(int(m_threads.size()), std::memory_order_relaxed);
   m_round.fetch_add(1, std::memory_order_release);
   m_round.notify_all();
   runPart(0);
@@ -43,4 +43,4 @@ void ThreadPool::work(int part) {
   }
 }
 
-}  // namespace rubble::dust
+}  // namespace rubble::base

@@ -27,7 +27,7 @@ class AssetFile : public testing::Test {
 
   void write(const std::string& bytes) const {
     std::ofstream(m_file, std::ios::binary | std::ios::trunc)
-        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        .write(bytes.data(), std::streamsize(bytes.size()));
   }
 
   // Must be refused with one line that names the file and holds one of the words.
@@ -106,7 +106,7 @@ TEST_F(AssetFile, IsRefusedWithAnyBitFlipped) {
     // The whole header bit by bit in the first rounds would take 768; random bits of it and of the rest do.
     const std::size_t range = k % 2 == 0 ? 104 : bytes.size();
     const std::size_t at = generator() % range;
-    bytes[at] = static_cast<char>(bytes[at] ^ (1 << (generator() % 8)));
+    bytes[at] = char(bytes[at] ^ (1 << (generator() % 8)));
     expectRefused(bytes, "");
   }
 }
@@ -160,13 +160,11 @@ TEST_F(AssetFile, OfAnImpossibleAssetIsNeverWritten) {
       [](Asset& a) { a.anchors[0].element = 20; },
       [](Asset& a) { a.vertices[0].elements[0] = kNoElement; },
       [](Asset& a) { a.vertices[0].position.x() = std::nanf(""); },
-      [](Asset& a) { a.corners[0].vertex = static_cast<std::uint32_t>(a.vertices.size()); },
+      [](Asset& a) { a.corners[0].vertex = std::uint32_t(a.vertices.size()); },
       [](Asset& a) { a.corners[0].element = 21; },
       [](Asset& a) { a.corners[0].normal *= 2; },
-      [](Asset& a) { a.triangles[0][0] = static_cast<std::uint32_t>(a.corners.size()); },
-      [](Asset& a) {
-        a.triangles[0][0] = static_cast<std::uint32_t>(a.corners.size() - 1);
-      },  // of another cell
+      [](Asset& a) { a.triangles[0][0] = std::uint32_t(a.corners.size()); },
+      [](Asset& a) { a.triangles[0][0] = std::uint32_t(a.corners.size() - 1); },  // of another cell
       [](Asset& a) { a.faces[0].neighbour = 20; },
       [](Asset& a) { a.faces[0].area = std::nanf(""); },
       [](Asset& a) { a.cells[0].innerTriangles = kNoElement; },

@@ -8,22 +8,22 @@
 #include <type_traits>
 #include <vector>
 
-namespace rubble::dust {
+namespace rubble::base {
 
 class ThreadPool {
  public:
-  // `threads` counts the caller; with 1 no thread is made.
+  /// `threads` counts the caller; with 1 no thread is made.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  // Calls body(begin, end) for parts of [0, count) and returns when all are done. `cost` is the work of one
-  // item in cells: a small range runs on the caller, waking threads would take longer. `body` must not throw.
-  // Not reentrant.
+  /// Calls body(begin, end) for parts of [0, count) and returns when all are done. `cost` is the work of one
+  /// item in cells: a small range runs on the caller, waking threads would take longer. `body` must not
+  /// throw. Not reentrant.
   template <class Body>
   void run(int count, int cost, Body&& body) {
-    if (m_threads.empty() || static_cast<std::int64_t>(count) * cost < kLeastWork) {
+    if (m_threads.empty() || std::int64_t(count) * cost < kLeastWork) {
       body(0, count);
       return;
     }
@@ -50,4 +50,4 @@ class ThreadPool {
   std::vector<std::thread> m_threads;
 };
 
-}  // namespace rubble::dust
+}  // namespace rubble::base

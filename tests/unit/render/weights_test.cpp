@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/render/random.h"
 #include "support/grid_asset.h"
+#include "unit/render/random.h"
 #ifdef RUBBLE_TEST_COOK
 #include "rubble/cook.h"
 #endif
 
-namespace rubble::render {
+namespace rubble::test {
+using namespace render;
 namespace {
 
 using test::gridAsset;
@@ -179,4 +180,4 @@ TEST(Weights, CrushedElementHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace rubble::render
+}  // namespace rubble::test

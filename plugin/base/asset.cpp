@@ -127,7 +127,7 @@ double Asset::volume() const {
 }
 
 double Asset::spacing() const {
-  return volumes.empty() ? 0.0 : std::cbrt(volume() / static_cast<double>(volumes.size()));
+  return volumes.empty() ? 0.0 : std::cbrt(volume() / double(volumes.size()));
 }
 
 Eigen::AlignedBox3d Asset::bounds() const {

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/render/random.h"
 #include "support/grid_asset.h"
+#include "unit/render/random.h"
 
-namespace rubble::render {
+namespace rubble::test {
+using namespace render;
 namespace {
 
 using test::gridAsset;
@@ -84,7 +85,7 @@ TEST(CellMesh, CoarseCellHasTheVolumeOfItsCell) {
       for (unsigned c = 0; c < 3; ++c) {
         const auto vertex = mesh.corners()[triangle[c]].vertexAndOwner / 4;
         p[c] = (asset.vertices[vertex].position.cast<double>() - asset.positions[e]) *
-               static_cast<double>(mesh.coarseScale(e));
+               double(mesh.coarseScale(e));
       }
       volume += p[0].cross(p[1]).dot(p[2]) / 6;
       areas += (p[1] - p[0]).cross(p[2] - p[0]) / 2;
@@ -95,4 +96,4 @@ TEST(CellMesh, CoarseCellHasTheVolumeOfItsCell) {
 }
 
 }  // namespace
-}  // namespace rubble::render
+}  // namespace rubble::test

@@ -7,9 +7,9 @@
 namespace rubble {
 namespace {
 
-/// Assumed, typical of the named material: densities, Bond indices, and `concrete`'s modulus and strengths.
-/// The `_soft` ones are softened for games: their moduli, strengths and angles are chosen, not those of any
-/// real material. Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
+// Assumed, typical of the named material: densities, Bond indices, and `concrete`'s modulus and strengths.
+// The `_soft` ones are softened for games: their moduli, strengths and angles are chosen, not those of any
+// real material. Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
 std::array<Material, 4> presets() {
   Material softConcrete;
   Material concrete;

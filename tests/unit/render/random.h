@@ -16,15 +16,13 @@ class Random {  // a linear congruential generator [Knuth, MMIX]
   explicit Random(std::uint64_t seed) : m_state(seed) {}
   float unit() {
     m_state = m_state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<float>(m_state >> 40) / static_cast<float>(1u << 24);
+    return float(m_state >> 40) / float(1u << 24);
   }
   Eigen::Vector3f vector() {  // in [-1, 1]^3
     const float x = unit(), y = unit(), z = unit();
     return 2 * Eigen::Vector3f(x, y, z) - Eigen::Vector3f::Ones();
   }
-  std::uint32_t below(std::size_t n) {
-    return static_cast<std::uint32_t>(unit() * static_cast<float>(n)) % static_cast<std::uint32_t>(n);
-  }
+  std::uint32_t below(std::size_t n) { return std::uint32_t(unit() * float(n)) % std::uint32_t(n); }
 
  private:
   std::uint64_t m_state;

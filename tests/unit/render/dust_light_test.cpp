@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "gl/render/random.h"
 #include "render/dust_volume.h"
 #include "render/frame.h"
+#include "unit/render/random.h"
 
-namespace rubble::render {
+namespace rubble::test {
+using namespace render;
 namespace {
 
 const Eigen::AlignedBox3f kGrid(Eigen::Vector3f(-2, 0, -1), Eigen::Vector3f(2, 3, 2));
@@ -72,4 +73,4 @@ TEST(ShadowMap, HoldsItsBoxAndLooksAlongTheLight) {
 }
 
 }  // namespace
-}  // namespace rubble::render
+}  // namespace rubble::test
