@@ -33,9 +33,9 @@ Line list(const Eigen::Vector3d& v) {
 }
 
 Line countsOf(const DestructionCounts& c, Line line) {
-  line["elements"] = {{"intact", c.elements - c.crushed}, {"crushed", c.crushed}, {"awake", c.awake}};
+  line["elements"] = {{"intact", c.intact()}, {"crushed", c.crushed}, {"awake", c.awake}};
   line["fragments"] = c.fragments;
-  line["springs"] = {{"intact", c.springs - c.springsBroken}, {"broken", c.springsBroken}};
+  line["springs"] = {{"intact", c.springsIntact()}, {"broken", c.springsBroken}};
   line["debris"] = {{"alive", c.debrisAlive}, {"spawned", c.debrisSpawned}, {"removed", c.debrisRemoved}};
   return line;
 }

@@ -21,8 +21,8 @@ void row(std::ostream& out, const char* name, const std::string& value) {
 
 void printSummary(std::ostream& out, const Summary& s) {
   const DestructionCounts& c = s.counts;
-  row(out, "elements", std::to_string(c.elements) + ", " + std::to_string(c.crushed) + " crushed");
-  row(out, "springs", std::to_string(c.springs) + ", " + std::to_string(c.springsBroken) + " broken");
+  row(out, "elements", std::to_string(c.crushed) + " of " + std::to_string(c.elements) + " crushed");
+  row(out, "springs", std::to_string(c.springsBroken) + " of " + std::to_string(c.springs) + " broken");
   row(out, "fragments", std::to_string(c.fragments));
   row(out, "debris", std::to_string(c.debrisSpawned) + " pieces, " + std::to_string(c.debrisAlive) + " left");
   row(out, "dust", text(s.ledger.massDustEmitted) + " kg");

@@ -53,11 +53,10 @@ DestructionCounts Destruction::counts() const {
   DestructionCounts c;
   for (const DestructibleBody* body : m_impl->bodies) {
     const edem::BodyView view = m_impl->solver->view(body->id());
-    const auto alive = std::uint32_t(view.alive.size()) - view.crushed;
-    c.elements += alive;
+    c.elements += std::uint32_t(view.alive.size());
     c.crushed += view.crushed;
-    c.awake += view.asleep ? 0 : alive;
-    c.springs += std::uint32_t(view.intact.size()) - view.broken;
+    c.awake += view.asleep ? 0 : std::uint32_t(view.alive.size()) - view.crushed;
+    c.springs += std::uint32_t(view.intact.size());
     c.springsBroken += view.broken;
     c.fragments += view.fragments;
   }

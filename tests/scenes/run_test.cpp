@@ -79,6 +79,33 @@ TEST_F(Run, StatisticsHaveTheDocumentedKeys) {
   }
 }
 
+// Of springs so weak that most of them break, so that no count is small against another.
+TEST_F(Run, CountsAddUpToWhatWasCooked) {
+  const std::vector<demo::Override> weak = {{"objects.0.material.tensile_strength", "3e3"},
+                                            {"objects.0.material.compressive_strength", "3e4"},
+                                            {"objects.0.material.crush_efficiency", "1e-6"}};
+  const std::vector<Json> frames = run(weak);
+  const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), weak);
+  const Asset& asset = *demo::cookObjects(scene).front();
+  for (const Json& frame : frames) {
+    const Json &elements = frame["elements"], &springs = frame["springs"];
+    EXPECT_EQ(elements["intact"].get<std::size_t>() + elements["crushed"].get<std::size_t>(),
+              asset.elementCount());
+    EXPECT_EQ(springs["intact"].get<std::size_t>() + springs["broken"].get<std::size_t>(),
+              asset.springs.size() + asset.anchors.size());
+    EXPECT_LE(elements["awake"].get<std::size_t>(), elements["intact"].get<std::size_t>());
+  }
+  const DestructionCounts& counts = m_summary.counts;
+  EXPECT_EQ(counts.elements, asset.elementCount());
+  EXPECT_GT(counts.crushed, 0u);
+  EXPECT_EQ(counts.springs, asset.springs.size() + asset.anchors.size());
+  EXPECT_GT(counts.springsBroken, counts.springs / 2);
+  std::ostringstream summary;
+  demo::printSummary(summary, m_summary);
+  const std::string of = " of " + std::to_string(asset.elementCount()) + " crushed";
+  EXPECT_NE(summary.str().find(std::to_string(counts.crushed) + of), std::string::npos) << summary.str();
+}
+
 TEST_F(Run, MassIsTheSolidsAndStays) {
   const std::vector<Json> frames = run();
   for (const Json& frame : frames) {

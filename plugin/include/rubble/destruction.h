@@ -57,11 +57,19 @@ struct DestructibleBodyDef {
   int collisionMask = btBroadphaseProxy::AllFilter;
 };
 
+/// What is in the world now. Bodies that were removed no longer count, in any of these.
 struct DestructionCounts {
-  std::uint32_t elements = 0, crushed = 0, awake = 0;
-  std::uint32_t springs = 0, springsBroken = 0;
-  std::uint32_t fragments = 0;
-  std::uint32_t debrisAlive = 0, debrisSpawned = 0, debrisRemoved = 0;
+  std::uint32_t elements = 0;       ///< of all bodies as they were added: intact + crushed
+  std::uint32_t crushed = 0;        ///< of them, gone to debris and dust
+  std::uint32_t awake = 0;          ///< intact elements of bodies that are not asleep
+  std::uint32_t springs = 0;        ///< of all bodies as they were added, anchors too: intact + broken
+  std::uint32_t springsBroken = 0;  ///< of them, those of crushed elements too
+  std::uint32_t fragments = 0;      ///< sets of intact elements joined by intact springs, single ones too
+  std::uint32_t debrisAlive = 0;    ///< pieces in the world
+  std::uint32_t debrisSpawned = 0, debrisRemoved = 0;  ///< since the Destruction was made
+
+  std::uint32_t intact() const { return elements - crushed; }
+  std::uint32_t springsIntact() const { return springs - springsBroken; }
 };
 
 /// Milliseconds of wall time since takeTimes.
