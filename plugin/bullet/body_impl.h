@@ -18,8 +18,8 @@ struct DestructibleBody::Impl {
   std::shared_ptr<const Asset> asset;
   rubble::Material material;
   Model model;
-  std::unique_ptr<ElementShape> shape;
-  std::unique_ptr<CouplerConstraint> coupler;
+  std::unique_ptr<bullet::ElementShape> shape;
+  std::unique_ptr<bullet::CouplerConstraint> coupler;
   std::unique_ptr<debris::Spawner> spawner;
   std::vector<double> bondConstants;     ///< C_B of each element [J m^0.5]
   std::vector<std::uint8_t> wasRoot;     ///< elements that were the lowest of a fragment

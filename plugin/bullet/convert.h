@@ -5,7 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include "rubble/abi.h"
+
 namespace rubble::bullet {
+RUBBLE_ABI_BEGIN
 
 inline Eigen::Vector3d toEigen(const btVector3& v) {
   return {double(v.x()), double(v.y()), double(v.z())};
@@ -23,4 +26,5 @@ inline btQuaternion toBullet(const Eigen::Quaterniond& q) {
   return {btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())};
 }
 
+RUBBLE_ABI_END
 }  // namespace rubble::bullet

@@ -4,7 +4,7 @@
 
 #include "bullet/world_tick.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 CouplerConstraint::CouplerConstraint(DestructibleBody& body, Destruction::Impl& world)
@@ -34,4 +34,4 @@ void CouplerConstraint::solveConstraintObsolete(btSolverBody& own, btSolverBody&
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

@@ -6,7 +6,7 @@
 
 #include "rubble/destruction.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 class CouplerConstraint : public btTypedConstraint {
@@ -30,4 +30,4 @@ class CouplerConstraint : public btTypedConstraint {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

@@ -8,7 +8,7 @@
 
 #include "bullet/convert.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 namespace {
 
@@ -31,7 +31,7 @@ void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
   m_balls.clear();
   m_largest = 0;
   std::fill(m_present.begin(), m_present.end(), std::uint8_t(0));
-  const btVector3 low = bullet::toBullet(swept.min()), high = bullet::toBullet(swept.max());
+  const btVector3 low = toBullet(swept.min()), high = toBullet(swept.max());
   // The world's list and not the broadphase's tree: its order does not depend on the tree's history.
   for (int i = 0; i < m_world.getNumCollisionObjects(); ++i) {
     btCollisionObject& object = *m_world.getCollisionObjectArray()[i];
@@ -174,12 +174,11 @@ void DebrisSurroundings::push(std::span<const debris::SurfaceImpulse> impulses) 
     } else if (m_present[s]) {
       btRigidBody& rigid = *m_movable[s];
       rigid.activate();
-      rigid.applyCentralImpulse(bullet::toBullet(impulses[s].linear));
-      rigid.applyTorqueImpulse(
-          bullet::toBullet(impulses[s].angularAbout(bullet::toEigen(rigid.getCenterOfMassPosition()))));
+      rigid.applyCentralImpulse(toBullet(impulses[s].linear));
+      rigid.applyTorqueImpulse(toBullet(impulses[s].angularAbout(toEigen(rigid.getCenterOfMassPosition()))));
     }
   }
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

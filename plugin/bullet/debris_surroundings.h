@@ -13,7 +13,7 @@
 #include "edem/solver.h"
 #include "rubble/destruction.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 class DebrisSurroundings : public debris::DebrisCollider {
@@ -64,4 +64,4 @@ class DebrisSurroundings : public debris::DebrisCollider {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

@@ -12,7 +12,7 @@
 #include "bullet/convert.h"
 #include "bullet/world_tick.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 namespace {
 
@@ -95,8 +95,8 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     for (const Near& p : nearPoints(ownA ? *ownA : *ownB, ownA ? *b : *a, margin)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
-      result->addContactPoint(bullet::toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
-                              bullet::toBullet(ownB ? onElement : p.point), btScalar(p.distance));
+      result->addContactPoint(toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
+                              toBullet(ownB ? onElement : p.point), btScalar(p.distance));
     }
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
@@ -147,4 +147,4 @@ ElementAlgorithms::~ElementAlgorithms() {
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

@@ -8,7 +8,7 @@
 
 #include "rubble/abi.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 /// Registers the algorithm for (destructible, anything) with one dispatcher, and puts back what was there
@@ -35,4 +35,4 @@ class ElementAlgorithms {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

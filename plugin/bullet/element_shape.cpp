@@ -11,7 +11,7 @@
 
 #include "bullet/convert.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 ElementShape::ElementShape(const edem::Solver& solver, std::uint32_t body) : m_solver(solver), m_body(body) {
@@ -26,8 +26,8 @@ void ElementShape::refit(double travel) {
     return;
   }
   const Eigen::Vector3d grow = Eigen::Vector3d::Constant(travel + m_solver.radius(m_body));
-  m_low = bullet::toBullet(box.min() - grow);
-  m_high = bullet::toBullet(box.max() + grow);
+  m_low = toBullet(box.min() - grow);
+  m_high = toBullet(box.max() + grow);
 }
 
 void ElementShape::getAabb(const btTransform&, btVector3& low, btVector3& high) const {
@@ -47,7 +47,7 @@ void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVec
 }
 
 std::vector<std::uint32_t> ElementShape::elementsAlong(const btVector3& low, const btVector3& high) const {
-  Eigen::AlignedBox3d box(bullet::toEigen(low), bullet::toEigen(high));
+  Eigen::AlignedBox3d box(toEigen(low), toEigen(high));
   box.min().array() -= m_solver.radius(m_body);
   box.max().array() += m_solver.radius(m_body);
   std::vector<std::uint32_t> near;
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> ElementShape::elementsAlong(const btVector3& low, con
 }
 
 void ElementShape::answer(btTriangleRaycastCallback& ray) const {
-  const Eigen::Vector3d from = bullet::toEigen(ray.m_from), along = bullet::toEigen(ray.m_to) - from;
+  const Eigen::Vector3d from = toEigen(ray.m_from), along = toEigen(ray.m_to) - from;
   const double length2 = along.squaredNorm(), radius = m_solver.radius(m_body);
   if (!(length2 > 0)) return;
   btVector3 low = ray.m_from, high = ray.m_from;
@@ -70,7 +70,7 @@ void ElementShape::answer(btTriangleRaycastCallback& ray) const {
     const double t = middle - std::sqrt((radius * radius - miss2) / length2);
     if (t < 0 || t > double(ray.m_hitFraction)) continue;
     const Eigen::Vector3d normal = (t * along - to).normalized();
-    ray.m_hitFraction = ray.reportHit(bullet::toBullet(normal), btScalar(t), 0, int(i));
+    ray.m_hitFraction = ray.reportHit(toBullet(normal), btScalar(t), 0, int(i));
   }
 }
 
@@ -82,7 +82,7 @@ void ElementShape::answer(btTriangleConvexcastCallback& sweep) const {
   high.setMax(endHigh);
   const btSphereShape ball(btScalar(m_solver.radius(m_body)));
   for (const std::uint32_t i : elementsAlong(low, high)) {
-    const btTransform at(btQuaternion::getIdentity(), bullet::toBullet(m_solver.position(m_body, i)));
+    const btTransform at(btQuaternion::getIdentity(), toBullet(m_solver.position(m_body, i)));
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
     btContinuousConvexCollision cast(sweep.m_convexShape, &ball, &simplex, &depth);
@@ -104,4 +104,4 @@ void ElementShape::calculateLocalInertia(btScalar mass, btVector3& inertia) cons
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

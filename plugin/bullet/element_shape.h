@@ -12,7 +12,7 @@
 class btTriangleConvexcastCallback;
 class btTriangleRaycastCallback;
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 class ElementShape : public btConcaveShape {
@@ -49,4 +49,4 @@ class ElementShape : public btConcaveShape {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

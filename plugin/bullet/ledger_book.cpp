@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 void LedgerBook::addExchange(const debris::Exchange& exchange) {
@@ -25,7 +25,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   const double mass = l.massElements + l.massDebris + l.massDustEmitted + l.massRemoved;
   l.massError = books.initialMass > 0 ? std::abs(mass - books.initialMass) / books.initialMass : 0;
 
-  // Momentum: what is there, and what left, is what was there and what was exchanged (DESIGN 3.12).
+  // Momentum: what is there, and what left, is what was there and what was exchanged (law 12).
   l.linearMomentum = books.linear + debris.linear;
   l.angularMomentum = books.angular + debris.angularAbout(books.centre);
   const Eigen::Vector3d linear = books.initialLinear + books.bullet.linear + books.gravity.linear +
@@ -57,4 +57,4 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

@@ -7,7 +7,7 @@
 #include "rubble/abi.h"
 #include "rubble/ledger.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 class LedgerBook {
@@ -32,4 +32,4 @@ class LedgerBook {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

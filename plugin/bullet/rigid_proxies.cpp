@@ -15,11 +15,9 @@
 #include "base/hash.h"
 #include "bullet/convert.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 namespace {
-
-using bullet::toEigen;
 
 std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
   base::Fnv1a hash;
@@ -29,7 +27,7 @@ std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
 
 std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& points) {
   std::vector<btVector3> input;
-  for (const Eigen::Vector3d& p : points) input.push_back(bullet::toBullet(p));
+  for (const Eigen::Vector3d& p : points) input.push_back(toBullet(p));
   btConvexHullComputer computer;
   computer.compute(&input[0][0], int(sizeof(btVector3)), int(input.size()), 0, 0);
   auto hull = std::make_shared<edem::Hull>();
@@ -161,4 +159,4 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
 }
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

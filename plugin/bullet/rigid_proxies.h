@@ -11,7 +11,7 @@
 #include "rubble/abi.h"
 #include "rubble/error.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 /// Makes proxies, and keeps the faces of hulls between ticks.
@@ -39,4 +39,4 @@ class RigidProxies {
 };
 
 RUBBLE_ABI_END
-}  // namespace rubble
+}  // namespace rubble::bullet

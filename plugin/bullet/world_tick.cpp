@@ -1,5 +1,7 @@
 #include "bullet/world_tick.h"
 
+#include <LinearMath/btQuickprof.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -45,7 +47,7 @@ Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionD
   debris::DebrisSystemDef system;
   system.maxDebris = def.maxDebris;
   debrisSystem = std::make_unique<debris::DebrisSystem>(system);
-  surroundings = std::make_unique<DebrisSurroundings>(world, *solver, proxyMaker);
+  surroundings = std::make_unique<bullet::DebrisSurroundings>(world, *solver, proxyMaker);
 }
 
 Destruction::Impl::~Impl() {
@@ -83,7 +85,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
   impl->model = bodyDef.model;
-  impl->shape = std::make_unique<ElementShape>(*solver, impl->id);
+  impl->shape = std::make_unique<bullet::ElementShape>(*solver, impl->id);
   impl->wasRoot.assign(bodyDef.asset->elementCount(), 0);
   const auto fragment = solver->view(impl->id).fragment;
   for (std::size_t i = 0; i < fragment.size(); ++i) impl->wasRoot[i] = fragment[i] == i;
@@ -92,7 +94,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->shape->calculateLocalInertia(btScalar(mass), inertia);
   btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
   auto* body = new DestructibleBody(info, std::move(impl));
-  body->impl().coupler = std::make_unique<CouplerConstraint>(*body, *this);
+  body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
   body->setActivationState(DISABLE_DEACTIVATION);
   world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
   world.addConstraint(body->impl().coupler.get());
@@ -134,15 +136,16 @@ void Destruction::Impl::record(std::vector<T>& list, const T& event) {
 }
 
 void Destruction::Impl::gatherProxies() {
+  BT_PROFILE("Rubble gather proxies");
   touched.clear();
   proxies.clear();
   for (DestructibleBody* body : bodies) {
     for (btCollisionObject* object : body->impl().near) {
-      const auto known = [&](const TouchedBody& t) { return t.object == object; };
+      const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
       if (std::any_of(touched.begin(), touched.end(), known)) continue;
       edem::RigidProxy proxy = proxyMaker.make(*object);
       if (proxy.parts.empty()) continue;
-      TouchedBody t;
+      bullet::TouchedBody t;
       t.object = object;
       if (btRigidBody* rigid = proxy.isDynamic() ? btRigidBody::upcast(object) : nullptr) {
         t.rigid = rigid;
@@ -152,7 +155,7 @@ void Destruction::Impl::gatherProxies() {
         t.angularAcceleration = toBullet(proxy.angularAcceleration);
         // Without it a crate that stands on the ground would fall through every tick's substeps and be put
         // back.
-        for (const Reaction& held : reactions) {
+        for (const bullet::Reaction& held : reactions) {
           if (held.body != rigid) continue;
           proxy.acceleration += toEigen(held.linear);
           proxy.angularAcceleration += toEigen(held.angular);
@@ -167,6 +170,7 @@ void Destruction::Impl::gatherProxies() {
 
 void Destruction::Impl::advance(double dt) {
   if (advanced || !failure.empty()) return;
+  BT_PROFILE("Rubble advance");
   followSleep();
   substeps = 0;
   if (!solver->anyAwake()) return;
@@ -174,13 +178,16 @@ void Destruction::Impl::advance(double dt) {
   const base::ScopeTimer timer(times.edem);
   gatherProxies();
   std::vector<edem::RigidProxy> start = proxies;
-  solver->tick(dt, toEigen(world.getGravity()), proxies);
+  {
+    BT_PROFILE("Rubble substeps");
+    solver->tick(dt, toEigen(world.getGravity()), proxies);
+  }
   times.neighbours += solver->report().listing;
   times.edem -= solver->report().listing;
   failure = solver->failure();
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
-    TouchedBody& t = touched[p];
+    bullet::TouchedBody& t = touched[p];
     if (!t.rigid) continue;
     const edem::RigidProxy& s = start[p];
     const Eigen::Vector3d change = proxies[p].inverseMass * proxies[p].impulse;
@@ -193,6 +200,7 @@ void Destruction::Impl::advance(double dt) {
 }
 
 void Destruction::Impl::finish(double dt) {
+  BT_PROFILE("Rubble finish");
   if (!advanced) advance(dt);
   for (DestructibleBody* body : bodies) {
     body->impl().shape->setHidden(false);
@@ -218,7 +226,8 @@ void Destruction::Impl::finish(double dt) {
 
 // Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
 void Destruction::Impl::lateImpulses() {
-  for (TouchedBody& t : touched) {
+  BT_PROFILE("Rubble late impulses");
+  for (bullet::TouchedBody& t : touched) {
     if (!t.rigid || t.given) continue;
     t.rigid->setLinearVelocity(t.rigid->getLinearVelocity() + t.deltaVelocity);
     t.rigid->setAngularVelocity(t.rigid->getAngularVelocity() + t.deltaSpin);
@@ -229,10 +238,11 @@ void Destruction::Impl::lateImpulses() {
 // A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
 // had it.
 void Destruction::Impl::fixPositions() {
+  BT_PROFILE("Rubble fix positions");
   double radius = std::numeric_limits<double>::infinity();
   for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
   for (std::size_t p = 0; p < proxies.size(); ++p) {
-    TouchedBody& t = touched[p];
+    bullet::TouchedBody& t = touched[p];
     if (!t.rigid || !(proxies[p].contactWeight > 0)) continue;
     const btVector3 shift = toBullet(proxies[p].position) - t.freeEnd;
     const double size = double(shift.length()) / radius;
@@ -246,18 +256,19 @@ void Destruction::Impl::fixPositions() {
 }
 
 // A body that was at rest before and after this tick is held by something that only Bullet knows: the
-// substeps of the next tick count on half of it, and half of what they counted on before, so that it
-// settles.
+// substeps of the next tick count on a share kTrust of it and the rest of what they counted on before, so
+// that it settles.
 void Destruction::Impl::noteReactions(double dt) {
-  const std::vector<Reaction> before = std::exchange(reactions, {});
+  BT_PROFILE("Rubble note reactions");
+  const std::vector<bullet::Reaction> before = std::exchange(reactions, {});
   const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
   const btScalar rate = btScalar(1 / dt);
-  for (const TouchedBody& t : touched) {
+  for (const bullet::TouchedBody& t : touched) {
     if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
-    Reaction now{t.rigid,
-                 rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
-                 rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
-    for (const Reaction& last : before) {
+    bullet::Reaction now{
+        t.rigid, rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
+        rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
+    for (const bullet::Reaction& last : before) {
       if (last.body != now.body) continue;
       now.linear = last.linear + kTrust * (now.linear - last.linear);
       now.angular = last.angular + kTrust * (now.angular - last.angular);
@@ -268,6 +279,7 @@ void Destruction::Impl::noteReactions(double dt) {
 
 // For applications that read manifolds: a body's impulse, in equal parts on the points of its manifold.
 void Destruction::Impl::writeAppliedImpulses() {
+  BT_PROFILE("Rubble write applied impulses");
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
@@ -289,6 +301,7 @@ void Destruction::Impl::writeAppliedImpulses() {
 }
 
 void Destruction::Impl::bookEvents() {
+  BT_PROFILE("Rubble book events");
   Events& out = events[filling];
   const edem::TickReport& report = solver->report();
   wakeBoxes.clear();
@@ -326,6 +339,7 @@ void Destruction::Impl::bookEvents() {
 
 // Crushed elements become debris and dust (paper 3.2, 3.3).
 void Destruction::Impl::breakElements() {
+  BT_PROFILE("Rubble break elements");
   Events& out = events[filling];
   for (base::CrushedElement c : solver->report().crushed) {
     DestructibleBody* body = bodyOf(c.body);
@@ -359,6 +373,7 @@ void Destruction::Impl::breakElements() {
 }
 
 void Destruction::Impl::stepDebris(double dt) {
+  BT_PROFILE("Rubble step debris");
   if (debrisSystem->restingCount() > 0) {
     for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
       const btCollisionObject* object = world.getCollisionObjectArray()[i];
@@ -383,11 +398,13 @@ void Destruction::Impl::stepDebris(double dt) {
 
 // Bullet has put islands to sleep, or woken them.
 void Destruction::Impl::followSleep() {
+  BT_PROFILE("Rubble follow sleep");
   for (DestructibleBody* body : bodies) solver->setAsleep(body->id(), !body->isActive());
 }
 
 // Bullet's own rules decide who sleeps; we tell it whether anything moves.
 void Destruction::Impl::updateSleep(double dt) {
+  BT_PROFILE("Rubble update sleep");
   for (DestructibleBody* body : bodies) {
     const std::uint32_t id = body->id();
     const double speed = solver->maxSpeed(id);

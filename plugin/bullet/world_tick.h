@@ -13,7 +13,7 @@
 #include "edem/solver.h"
 #include "rubble/destruction.h"
 
-namespace rubble {
+namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 /// A Bullet object that took part in this tick's substeps.
@@ -34,6 +34,12 @@ struct Reaction {
   btVector3 linear{0, 0, 0}, angular{0, 0, 0};
 };
 
+RUBBLE_ABI_END
+}  // namespace rubble::bullet
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+
 struct Destruction::Impl {
   Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition);
   ~Impl();
@@ -51,15 +57,15 @@ struct Destruction::Impl {
   DestructionDef def;
   std::unique_ptr<edem::Solver> solver;
   std::unique_ptr<debris::DebrisSystem> debrisSystem;  ///< null when debris are switched off
-  ElementAlgorithms algorithms;
-  RigidProxies proxyMaker;
-  std::unique_ptr<DebrisSurroundings> surroundings;
+  bullet::ElementAlgorithms algorithms;
+  bullet::RigidProxies proxyMaker;
+  std::unique_ptr<bullet::DebrisSurroundings> surroundings;
   std::vector<DestructibleBody*> bodies;
-  std::vector<TouchedBody> touched;
-  std::vector<edem::RigidProxy> proxies;  ///< beside `touched`
-  std::vector<Reaction> reactions;        ///< of the last tick
-  bool advanced = false;                  ///< in this tick
-  LedgerBook ledgerBook;
+  std::vector<bullet::TouchedBody> touched;
+  std::vector<edem::RigidProxy> proxies;    ///< beside `touched`
+  std::vector<bullet::Reaction> reactions;  ///< of the last tick
+  bool advanced = false;                    ///< in this tick
+  bullet::LedgerBook ledgerBook;
   Events events[2];
   int filling = 0;
   DestructionTimes times;

@@ -3,12 +3,12 @@
 
 #include "bullet/bullet_world.h"
 
-namespace rubble {
+namespace rubble::test {
 namespace {
 
 // A ball of 10 kg at 10 m/s through the wall; returns its speed along z after 0.3 s.
 double speedBehindWall(double strength, int rate, int ticksPerCall, double* worstMomentum = nullptr) {
-  test::BulletWorld w;
+  BulletWorld w;
   Material m = material("concrete_soft");
   m.tensileStrength = strength;
   m.compressiveStrength = 10 * strength;
@@ -57,10 +57,10 @@ TEST(Coupling, BallGetsWhatTheElementsGive) {
   // rounding.
   DestructionDef definition;
   definition.crushing = false;
-  test::BulletWorld w(definition);
+  BulletWorld w(definition);
   w.world.setGravity({0, 0, 0});
   DestructibleBodyDef def;
-  def.asset = test::smallWall();
+  def.asset = smallWall();
   def.material = material("concrete_soft");
   def.anchored = false;
   def.transform.setOrigin({0, 5, 0});
@@ -77,10 +77,10 @@ TEST(Coupling, BallGetsWhatTheElementsGive) {
 TEST(Coupling, DebrisPushTheElementsTheyHit) {
   // Springs break by crushing alone: a light ball crushes some of the first wall, and ball and elements stay
   // behind, so that only debris reach the second.
-  test::BulletWorld w;
+  BulletWorld w;
   w.world.setGravity({0, 0, 0});
   DestructibleBodyDef def;
-  def.asset = test::smallWall();
+  def.asset = smallWall();
   def.material = material("concrete_soft");
   def.material.crushEfficiency = 1e-3;
   def.material.tensileStrength = def.material.compressiveStrength = 1e12;
@@ -109,7 +109,7 @@ TEST(Coupling, DebrisPushTheElementsTheyHit) {
 }
 
 TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {
-  auto w = std::make_unique<test::BulletWorld>();
+  auto w = std::make_unique<BulletWorld>();
   w->addWall(material("concrete_soft"));
   for (int i = w->world.getNumConstraints() - 1; i >= 0; --i)
     w->world.removeConstraint(w->world.getConstraint(i));
@@ -123,4 +123,4 @@ TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {
 }
 
 }  // namespace
-}  // namespace rubble
+}  // namespace rubble::test

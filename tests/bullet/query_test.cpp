@@ -3,18 +3,18 @@
 
 #include "bullet/bullet_world.h"
 
-namespace rubble {
+namespace rubble::test {
 namespace {
 
 // Front of the small wall's elements for something that comes along +z: its cells begin at -0.04 m, its
 // spheres at most one radius behind.
 void expectAtFront(double z) {
   EXPECT_GE(z, -0.04 - 1e-4);
-  EXPECT_LE(z, -0.04 + test::smallWall()->radius);
+  EXPECT_LE(z, -0.04 + smallWall()->radius);
 }
 
 TEST(Query, RayHitsTheFrontElement) {
-  test::BulletWorld w;
+  BulletWorld w;
   const DestructibleBody* wall = w.addWall(material("concrete_soft"));
   const btVector3 from(0, btScalar(0.25), -2), to(0, btScalar(0.25), 2);
   btCollisionWorld::ClosestRayResultCallback hit(from, to);
@@ -25,7 +25,7 @@ TEST(Query, RayHitsTheFrontElement) {
 }
 
 TEST(Query, SweptBallStopsAtTheFront) {
-  test::BulletWorld w;
+  BulletWorld w;
   const DestructibleBody* wall = w.addWall(material("concrete_soft"));
   const btTransform from(btQuaternion::getIdentity(), {0, btScalar(0.25), -2}),
       to(btQuaternion::getIdentity(), {0, btScalar(0.25), 2});
@@ -38,7 +38,7 @@ TEST(Query, SweptBallStopsAtTheFront) {
 }
 
 TEST(Query, SweepBesideTheWallIsFree) {
-  test::BulletWorld w;
+  BulletWorld w;
   w.addWall(material("concrete_soft"));
   // The wall ends at x = 0.25 m; the ball's side passes 5 mm beside it.
   const btTransform from(btQuaternion::getIdentity(), {btScalar(0.355), btScalar(0.25), -2}),
@@ -60,7 +60,7 @@ struct Contacts : btCollisionWorld::ContactResultCallback {
 };
 
 TEST(Query, ContactTestTellsAndTouchesNothing) {
-  test::BulletWorld w;
+  BulletWorld w;
   DestructibleBody* wall = w.addWall(material("concrete_soft"));
   btCollisionObject ghost;
   ghost.setCollisionShape(&w.ballShape);
@@ -73,7 +73,7 @@ TEST(Query, ContactTestTellsAndTouchesNothing) {
   ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.25), btScalar(-0.1)}));
   w.world.contactPairTest(&ghost, wall, near);
   EXPECT_GT(near.count, 0);
-  EXPECT_LT(near.deepest, -0.04 + test::smallWall()->radius);
+  EXPECT_LT(near.deepest, -0.04 + smallWall()->radius);
   EXPECT_GE(near.deepest, -0.04 - 1e-4);
   EXPECT_EQ(w.destruction->hash(), before);
   w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
@@ -83,7 +83,7 @@ TEST(Query, ContactTestTellsAndTouchesNothing) {
 TEST(Query, ManifoldShowsTheBlowAndBulletLeavesItAlone) {
   DestructionDef definition;
   definition.breaking = false;
-  test::BulletWorld w(definition);
+  BulletWorld w(definition);
   w.world.setGravity({0, 0, 0});
   DestructibleBody* wall = w.addWall(material("concrete_soft"));
   btRigidBody* ball = w.add(1, w.ballShape, {0, btScalar(0.25), btScalar(-0.2)});
@@ -114,4 +114,4 @@ TEST(Query, ManifoldShowsTheBlowAndBulletLeavesItAlone) {
 }
 
 }  // namespace
-}  // namespace rubble
+}  // namespace rubble::test

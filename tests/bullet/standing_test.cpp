@@ -3,7 +3,7 @@
 
 #include "bullet/bullet_world.h"
 
-namespace rubble {
+namespace rubble::test {
 namespace {
 
 double fastest(const DestructibleBody& body, std::vector<ElementPose>& last, double dt) {
@@ -20,7 +20,7 @@ TEST(Standing, AnchoredWallIsStillFromTheFirstTick) {
   for (const bool sleep : {false, true}) {
     DestructionDef def;
     def.sleep = sleep;
-    test::BulletWorld w(def);
+    BulletWorld w(def);
     DestructibleBody* wall = w.addWall(material("concrete_soft"));
     std::vector<ElementPose> last(wall->asset()->elementCount());
     wall->poses(last);
@@ -34,13 +34,13 @@ TEST(Standing, AnchoredWallIsStillFromTheFirstTick) {
 }
 
 TEST(Standing, CubeRestsOnACrateThatSlept) {
-  test::BulletWorld w;
+  BulletWorld w;
   btBoxShape crateShape({btScalar(0.5), btScalar(0.25), btScalar(0.5)});
   btRigidBody* crate = w.add(50, crateShape, {0, btScalar(0.25), 0});
   for (int frame = 0; frame < 180; ++frame) w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
   ASSERT_FALSE(crate->isActive());
   DestructibleBodyDef def;
-  def.asset = test::smallWall();
+  def.asset = smallWall();
   def.material = material("concrete_soft");
   def.anchored = false;
   def.transform = btTransform(btQuaternion({1, 0, 0}, SIMD_HALF_PI), {0, btScalar(0.545), btScalar(-0.25)});
@@ -63,7 +63,7 @@ TEST(Standing, CubeRestsOnACrateThatSlept) {
 }
 
 TEST(Standing, SleepingWallWakesWhenABallComes) {
-  test::BulletWorld w;
+  BulletWorld w;
   DestructibleBody* wall = w.addWall(material("concrete_soft"));
   for (int frame = 0; frame < 180; ++frame) w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
   ASSERT_TRUE(wall->isAsleep());
@@ -74,4 +74,4 @@ TEST(Standing, SleepingWallWakesWhenABallComes) {
 }
 
 }  // namespace
-}  // namespace rubble
+}  // namespace rubble::test
