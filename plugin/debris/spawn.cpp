@@ -12,7 +12,7 @@ namespace rubble::debris {
 
 namespace {
 
-// Places of the pieces: half way from the centre to the face's centroid (DESIGN of the conserving spawn).
+// Places of the pieces: half way from the centre to the face's centroid (law 9).
 constexpr double kPlace = 0.5;
 // The pieces' own inertia is at least this share of the element's or of their places': spin = momentum /
 // inertia must stay well posed for cells whose places hold all of the inertia.

@@ -12,7 +12,7 @@ namespace rubble::dust {
 
 class SourceCells {
  public:
-  /// Sums `sources` (DESIGN: P m kilograms into the nearest cell, whose velocity becomes the mass-weighted
+  /// Sums `sources` (law 10: P m kilograms into the nearest cell, whose velocity becomes the mass-weighted
   /// mean of the elements broken there). Skips a source that is not finite, whose mass is not in (0,
   /// kDustMaxSourceMass].
   void gather(const Lattice& lattice, std::span<const DustSource> sources);

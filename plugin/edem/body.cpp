@@ -59,7 +59,7 @@ void makeElements(Body<Real>& body, const BodyDef& def) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double total = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    // DESIGN 3.1: an object weighs what its solid weighs, and turns as its cells do.
+    // Law 1: an object weighs what its solid weighs, and turns as its cells do.
     body.mass[i] = def.material.density * asset.volumes[i];
     body.inertia[i] = body.mass[i] * std::max(asset.gyrations[i], 0.4 * asset.radius * asset.radius);
     body.inverseMass[i] = Real(1 / body.mass[i]);
@@ -143,7 +143,7 @@ void indexSprings(Body<Real>& body) {
   each([&](std::uint32_t i, std::uint32_t s) { body.springsOf[fill[i]++] = s; });
 }
 
-// DESIGN 3.2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D
+// Law 2: pairs joined by a spring, and pairs that overlap unjoined at rest, have a contact distance D
 // of their own.
 template <class Real>
 void makePairs(Body<Real>& body) {

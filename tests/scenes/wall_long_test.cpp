@@ -44,7 +44,7 @@ TEST(WallSweep, TheBundledBallCrushesAHoleAndGoesOn) {
   EXPECT_GT(*run.summary.exitSpeed, 0);
 }
 
-// Bars of the design, section 3.12.
+// Bars of plugin/README.md, "Ledgers".
 TEST(WallWhole, LedgersCloseInEveryFrame) {
   const SceneRun run = runWall({});
   ASSERT_EQ(run.frames.size(), 180u);

@@ -13,8 +13,8 @@ namespace {
 // By frame 6 the blow is over: all elements that it crushes are crushed.
 const demo::Override kAfterTheBlow = {"frames", "6"};
 
-// Bars of the design, section 3.12. Bullet's own bodies are not in the ledger, so its momentum is the side of
-// the elements and their debris alone.
+// Bars of plugin/README.md, "Ledgers". Bullet's own bodies are not in the ledger, so its momentum is the side
+// of the elements and their debris alone.
 TEST(Wall, LedgersCloseInFloat) {
   const SceneRun run = runWall({kThroughTheWall});
   ASSERT_EQ(run.frames.size(), 12u);
@@ -98,8 +98,8 @@ double distance(const MassBySize& pieces, const std::vector<ElementLaw>& laws, d
   return largest;
 }
 
-// Gaudin and Schuhmann's law (eq. 5, 6) under Bond's R_max = (C_B / W_I)^2 (eq. 4) with C_B as the design
-// gives it, section 3.7.
+// Gaudin and Schuhmann's law (eq. 5, 6) under Bond's R_max = (C_B / W_I)^2 (eq. 4) with C_B of law 7 in
+// plugin/README.md.
 TEST(Wall, DebrisAndDustFollowTheSizeLawsOfTheirElements) {
   const SceneRun run = runWall({kAfterTheBlow});
   const Material material = demo::loadScene("wall").objects.front().material;
