@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <thread>
 #include <type_traits>
@@ -23,6 +24,7 @@ class ThreadPool {
   /// throw. Not reentrant.
   template <class Body>
   void run(int count, int cost, Body&& body) {
+    assert(count >= 0 && cost >= 0);
     if (m_threads.empty() || std::int64_t(count) * cost < kLeastWork) {
       body(0, count);
       return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -252,6 +253,8 @@ class Relaxation {
 
 Packing pack(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def,
              const std::function<void(double)>& progress) {
+  assert(def.count > 0 && def.radius > 0 && def.maxOverlap >= 0 && def.maxIterations >= 0);
+  assert(!bounds.isEmpty());
   return Relaxation(distance, bounds, def).run(progress);
 }
 

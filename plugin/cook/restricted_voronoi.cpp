@@ -1,6 +1,7 @@
 #include "cook/restricted_voronoi.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -107,6 +108,7 @@ void checkVolume(const RestrictedVoronoi& diagram, double expected) {
 
 RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eigen::Vector3d> sites,
                                     double jitter, std::uint64_t seed, const LogFunction& log) {
+  assert(!sites.empty() && jitter > 0);
   std::string reason;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {

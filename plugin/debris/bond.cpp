@@ -1,5 +1,6 @@
 #include "debris/bond.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -35,6 +36,7 @@ double bondConstant(double workIndex, double crushEfficiency, double sizeModulus
 }
 
 double maxRadius(double bondConstant, double fractureEnergy) {
+  assert(bondConstant > 0);
   if (!(fractureEnergy > 0)) return std::numeric_limits<double>::infinity();
   const double root = bondConstant / fractureEnergy;
   return root * root;
@@ -45,6 +47,7 @@ bool isCrushed(double maxRadius, double elementRadius) {
 }
 
 double crushingEnergy(double bondConstant, double elementRadius) {
+  assert(bondConstant > 0 && elementRadius > 0);
   return bondConstant / std::sqrt(elementRadius);
 }
 

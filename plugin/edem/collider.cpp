@@ -1,6 +1,7 @@
 #include "edem/collider.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -73,6 +74,7 @@ SurfacePoint nearestOnHull(const Hull& hull, const Eigen::Vector3d& p) {
 SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
   switch (c.kind) {
     case Collider::Kind::Plane:
+      assert(std::abs(c.size.squaredNorm() - 1) < 1e-6);  // Bullet normalises in float
       return {c.size.dot(p) - c.offset, c.size};
     case Collider::Kind::Box:
       return nearestOnBox(c.size, p);

@@ -6,6 +6,7 @@
 // paper).
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,8 @@ struct ContactForce {
 template <class Real>
 ContactForce<Real> contactForce(const ContactLaw<Real>& law, Real overlap, const Vec3<Real>& normal,
                                 const Vec3<Real>& approach) {
+  assert(overlap > 0 && law.stiffness >= 0 && law.damping >= 0);
+  assert(std::abs(normal.squaredNorm() - Real(1)) < Real(1e-3));  // unit; looser than any scalar's rounding
   const Real elastic = law.stiffness * overlap;
   const Real normalSpeed = approach.dot(normal);
   const Real total = std::fmax(Real(0), elastic - law.damping * normalSpeed);

@@ -1,5 +1,6 @@
 #include "edem/damping.h"
 
+#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -53,6 +54,7 @@ double kineticOf(const Body<Real>& body, std::size_t i) {
 
 template <class Real>
 void dampDeformation(Body<Real>& body, double rate, double dt, Books& books) {
+  assert(rate >= 0 && dt >= 0);
   const double lost = -std::expm1(-rate * dt);
   const auto motions = rigidMotions(body);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {

@@ -1,4 +1,7 @@
 // The force stages of a substep: springs and element contacts.
+#include <cassert>
+#include <cmath>
+
 #include "edem/stages.h"
 
 namespace rubble::edem {
@@ -43,7 +46,7 @@ struct PairTouch {
   Real power = 0;                  // of the elastic force [W]
 };
 
-// Contact distance D of a pair, DESIGN 3.2: own to joined pairs and to pairs overlapping at rest, and
+// Contact distance D of a pair, law 2: own to joined pairs and to pairs overlapping at rest, and
 // growing with their distance.
 template <class Real>
 Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance) {
@@ -58,6 +61,7 @@ template <class Real>
 PairTouch<Real> touchPair(const PairEntry& entry, const Vec3<Real>& offset, Body<Real>& a, Body<Real>& b) {
   PairTouch<Real> touch;
   const std::uint32_t i = entry.first, j = entry.second;
+  assert(i < a.elementCount() && j < b.elementCount());
   if (!a.alive[i] || !b.alive[j]) return touch;
   const Vec3<Real> between = (b.position[j] - a.position[i]) + offset;
   const Real distance2 = between.squaredNorm();
@@ -127,10 +131,13 @@ void beginSubstep(Body<Real>& body) {
 
 template <class Real>
 double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books) {
+  assert(std::isfinite(kick) && kick >= 0);
+  assert(body.intact.size() == body.springs.size() && body.force.size() == body.elementCount());
   double elastic = 0;
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
     if (!body.intact[s]) continue;
     const Spring<Real>& spring = body.springs[s];
+    assert(spring.first < body.elementCount() && spring.second < body.elementCount());
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
     const Real energy = load.stretchEnergy + load.rotationEnergy;
     elastic += double(energy);
@@ -202,8 +209,11 @@ void markCrushed(Body<Real>& body) {
 template <class Real>
 void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<Real>& lists, Books& books,
                  TickReport& report) {
+  assert(std::isfinite(kick) && kick >= 0);
+  assert(body.overloadMode.size() == body.overloaded.size());
   for (std::size_t k = 0; k < body.overloaded.size(); ++k) {
     const std::uint32_t s = body.overloaded[k];
+    assert(s < body.springs.size() && body.intact[s]);
     const Spring<Real>& spring = body.springs[s];
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
     addSpring(body, s, load, Real(-1));

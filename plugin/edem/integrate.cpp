@@ -1,4 +1,5 @@
 // The last stages of a substep: motion, and crushed elements leaving.
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,8 @@ Quat<Real> rotated(const Quat<Real>& q, const Vec3<Real>& w, Real h) {
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
                std::span<const Vec3<Real>> listed, Books& books) {
+  assert(std::isfinite(kick) && kick >= 0 && std::isfinite(step) && step >= 0);
+  assert(listed.size() == body.elementCount());
   const Real kickTime = Real(kick), stepTime = Real(step);
   const Vec3<Real> fall = (kick * gravity).template cast<Real>();
   Real furthest2 = 0;
@@ -86,7 +89,9 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
 
 template <class Real>
 void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report) {
+  assert(brokenBegin <= report.broken.size());
   for (const std::uint32_t i : body.crushing) {
+    assert(i < body.elementCount() && body.alive[i]);
     base::CrushedElement c;
     c.body = body.id;
     c.element = i;

@@ -1,5 +1,7 @@
 #include "edem/pair_lists.h"
 
+#include <cassert>
+
 #include <algorithm>
 
 namespace rubble::edem {
@@ -19,6 +21,7 @@ std::uint32_t pairOf(const Body<Real>& body, std::uint32_t i, std::uint32_t j) {
 
 template <class Real>
 void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin) {
+  assert(skin >= 0);
   m_skin = skin;
   m_grids.resize(bodies.size());
   while (m_lists.size() < bodies.size()) m_lists.emplace_back();

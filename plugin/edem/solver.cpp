@@ -1,6 +1,7 @@
 #include "edem/solver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -106,6 +107,7 @@ class SolverOf final : public Solver {
   void push(std::uint32_t id, std::size_t i, const Eigen::Vector3d& linear,
             const Eigen::Vector3d& angular) override {
     Body<Real>& body = *m_bodies[placeOf(id)];
+    assert(i < body.elementCount() && linear.allFinite() && angular.allFinite());
     const Vec3<Real> v0 = body.velocity[i], w0 = body.spin[i];
     body.velocity[i] += body.inverseMass[i] * linear.cast<Real>();
     body.spin[i] += body.inverseInertia[i] * angular.cast<Real>();
@@ -121,7 +123,10 @@ class SolverOf final : public Solver {
     m_books.kinetic += work;
   }
 
-  void setSettling(std::uint32_t id, double rate) override { m_bodies[placeOf(id)]->settleDamping = rate; }
+  void setSettling(std::uint32_t id, double rate) override {
+    assert(rate >= 0);
+    m_bodies[placeOf(id)]->settleDamping = rate;
+  }
 
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_bodies[placeOf(id)];
@@ -219,7 +224,7 @@ class SolverOf final : public Solver {
   std::string m_failure;
 };
 
-// A tick reads top to bottom (DESIGN section 2). The host applies proxies' impulses and handles the crushed
+// A tick reads top to bottom. The host applies proxies' impulses and handles the crushed
 // afterwards.
 template <class Real>
 void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) {

@@ -1,6 +1,7 @@
 #include "edem/stable_step.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@ namespace rubble::edem {
 
 template <class Real>
 void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
+  assert(rates.size() == body.elementCount());
   std::fill(rates.begin(), rates.end(), ElementRates{});
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
     if (!body.intact[s]) continue;
@@ -26,6 +28,7 @@ void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
 }
 
 void RateBound::add(const ElementRates& a, const ElementRates& b) {
+  assert(a.stiffness >= 0 && a.damping >= 0 && b.stiffness >= 0 && b.damping >= 0);
   frequency2 = std::max(frequency2, a.stiffness + b.stiffness);
   damping = std::max(damping, a.damping + b.damping);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 
 namespace rubble::render {
 namespace {
@@ -171,6 +172,7 @@ void CellWeights::setPair(std::uint32_t pair, bool joined) {
 }
 
 bool CellWeights::update(std::span<const std::uint8_t> springsIntact, std::span<const ElementPose> poses) {
+  assert(springsIntact.size() >= m_springs.size());
   m_marked.clear();
   m_changed.clear();
   const auto isJoined = [&](std::uint32_t s) {
@@ -202,6 +204,7 @@ bool CellWeights::update(std::span<const std::uint8_t> springsIntact, std::span<
 
 Eigen::Vector3f cellPoint(const Asset& asset, std::span<const ElementPose> poses, CellMask mask,
                           std::uint32_t vertex, unsigned owner) {
+  assert(vertex < asset.vertices.size() && owner < 4 && poses.size() >= asset.elementCount());
   const CellVertex& cellVertex = asset.vertices[vertex];
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float weights = 0;

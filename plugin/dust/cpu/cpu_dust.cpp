@@ -1,6 +1,7 @@
 #include "dust/cpu/cpu_dust.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "dust/cpu/advection.h"
@@ -29,6 +30,7 @@ void CpuDust::addSources(std::span<const shared::DustSourceCell> sources) {
 }
 
 void CpuDust::addForces(float dt) {
+  assert(dt > 0 && dt <= shared::kDustMaxStep);
   const ForceConstants constants{dt, m_def.gravity / m_def.airDensity, m_def.gravity, m_def.vorticity,
                                  std::exp(-m_def.drag * dt)};
   if (m_def.vorticity > 0) computeCurl(m_lattice, m_fields, m_pool);
@@ -55,11 +57,13 @@ void CpuDust::project() {
 }
 
 void CpuDust::advectVelocity(float dt) {
+  assert(dt > 0 && dt <= shared::kDustMaxStep);
   advect(m_lattice, dt, m_fields, m_pool);
   correctAdvection(m_lattice, dt, m_fields, m_pool);
 }
 
 void CpuDust::transportDust(float dt) {
+  assert(dt > 0 && dt <= shared::kDustMaxStep);
   const int substeps = toCourantNumbers(m_lattice, dt, settlingSpeed(m_def), m_fields, m_pool);
   const Outflow out = carryDust(m_lattice, substeps, m_fields, m_slabOutflow, m_pool);
   m_settled += out.settled;

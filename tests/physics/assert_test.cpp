@@ -1,0 +1,86 @@
+// The doors of the stages refuse what only a mistake in our own code can hand them. Built without NDEBUG
+// only: asan-ubsan, tsan and debug.
+#ifndef NDEBUG
+
+#include <gtest/gtest.h>
+
+#include "edem/contact.h"
+#include "edem/damping.h"
+#include "edem/stable_step.h"
+#include "physics/bodies.h"
+
+namespace rubble::test {
+namespace {
+
+class AssertDeathTest : public testing::Test {
+ protected:
+  AssertDeathTest() : m_body(edem::makeBody<double>(block({2, 1, 1}), 0)) {
+    edem::beginSubstep(m_body);
+    // Other tests of this process may have started threads.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+  }
+
+  edem::Body<double> m_body;
+  edem::Books m_books;
+  edem::TickReport m_report;
+  edem::PairLists<double> m_lists;
+};
+
+TEST_F(AssertDeathTest, SpringsRefuseANegativeStep) {
+  EXPECT_DEATH(edem::accumulateSprings(m_body, -1e-4, true, m_books), "kick >= 0");
+}
+
+TEST_F(AssertDeathTest, SpringsRefuseAnElementThatIsNotThere) {
+  m_body.springs[0].second = 2;
+  EXPECT_DEATH(edem::accumulateSprings(m_body, 1e-4, true, m_books), "elementCount");
+}
+
+TEST_F(AssertDeathTest, BreakingRefusesASpringThatIsNotThere) {
+  m_body.overloaded = {7};
+  m_body.overloadMode = {BreakMode::Tension};
+  EXPECT_DEATH(edem::applyBreaks(m_body, 0, 1e-4, m_lists, m_books, m_report), "springs.size");
+}
+
+TEST_F(AssertDeathTest, BreakingRefusesASpringThatIsBrokenAlready) {
+  m_body.intact[0] = 0;
+  m_body.overloaded = {0};
+  m_body.overloadMode = {BreakMode::Tension};
+  EXPECT_DEATH(edem::applyBreaks(m_body, 0, 1e-4, m_lists, m_books, m_report), "intact");
+}
+
+TEST_F(AssertDeathTest, MotionRefusesAStepThatIsNotFinite) {
+  const std::span<const edem::Vec3<double>> listed(m_body.position);
+  const double never = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_DEATH(edem::integrate(m_body, 1e-4, never, kNoGravity, listed, m_books), "isfinite");
+}
+
+TEST_F(AssertDeathTest, MotionRefusesPlacesOfAnotherBody) {
+  const std::span<const edem::Vec3<double>> listed(m_body.position.data(), 1);
+  EXPECT_DEATH(edem::integrate(m_body, 1e-4, 1e-4, kNoGravity, listed, m_books), "listed.size");
+}
+
+TEST_F(AssertDeathTest, AContactRefusesANormalThatIsNotUnit) {
+  const edem::ContactLaw<double> law{1e6, 10, 0.6};
+  const Eigen::Vector3d normal(0, 2, 0), approach(0, -1, 0);
+  EXPECT_DEATH(edem::contactForce(law, 1e-3, normal, approach), "squaredNorm");
+}
+
+TEST_F(AssertDeathTest, AContactRefusesAGap) {
+  const edem::ContactLaw<double> law{1e6, 10, 0.6};
+  const Eigen::Vector3d normal(0, 1, 0), approach(0, -1, 0);
+  EXPECT_DEATH(edem::contactForce(law, -1e-3, normal, approach), "overlap > 0");
+}
+
+TEST_F(AssertDeathTest, TheBoundRefusesNegativeRates) {
+  edem::RateBound bound;
+  EXPECT_DEATH(bound.add(edem::ElementRates{-1, 0}, edem::ElementRates{}), "stiffness >= 0");
+}
+
+TEST_F(AssertDeathTest, DampingRefusesANegativeRate) {
+  EXPECT_DEATH(edem::dampDeformation(m_body, -1, 1e-3, m_books), "rate >= 0");
+}
+
+}  // namespace
+}  // namespace rubble::test
+
+#endif
