@@ -22,14 +22,14 @@ inline DustGridDef cube(int resolution, float side) {
 }
 
 /// Centre of cell (x, y, z) [m].
-inline Eigen::Vector3d centre(const Lattice& lattice, int x, int y, int z) {
+inline Eigen::Vector3d centre(const dust::Lattice& lattice, int x, int y, int z) {
   return lattice.origin.cast<double>() + (Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Constant(0.5))
                                              .cwiseProduct(lattice.cell.cast<double>());
 }
 
 /// Calls body(index, centre) for every cell.
 template <class Body>
-void forCells(const Lattice& lattice, Body&& body) {
+void forCells(const dust::Lattice& lattice, Body&& body) {
   for (int z = 0; z < lattice.n; ++z) {
     for (int y = 0; y < lattice.n; ++y) {
       for (int x = 0; x < lattice.n; ++x) body(lattice.index(x, y, z), centre(lattice, x, y, z));
@@ -68,7 +68,7 @@ inline double rms(const std::vector<float>& values) {
 }
 
 /// Centre of mass of a field of one float a cell [m].
-inline Eigen::Vector3d centroid(const Lattice& lattice, const std::vector<float>& field) {
+inline Eigen::Vector3d centroid(const dust::Lattice& lattice, const std::vector<float>& field) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double sum = 0;
   forCells(lattice, [&](int i, const Eigen::Vector3d& at) {
@@ -78,13 +78,13 @@ inline Eigen::Vector3d centroid(const Lattice& lattice, const std::vector<float>
   return moment / sum;
 }
 
-inline void setVelocity(CpuDust& grid, const Lattice& lattice, auto&& flow) {
-  std::vector<float> values(grid.valuesOf(Field::Velocity));
+inline void setVelocity(dust::CpuDust& grid, const dust::Lattice& lattice, auto&& flow) {
+  std::vector<float> values(grid.valuesOf(dust::Field::Velocity));
   forCells(lattice, [&](int i, const Eigen::Vector3d& at) {
     const Eigen::Vector3f u = flow(at);
     for (int a = 0; a < 3; ++a) values[4 * i + a] = u[a];
   });
-  grid.write(Field::Velocity, values);
+  grid.write(dust::Field::Velocity, values);
 }
 
 }  // namespace rubble::test
