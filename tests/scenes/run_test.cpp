@@ -51,7 +51,7 @@ std::string keysOf(const Json& json, const std::string& prefix = "") {
   return text;
 }
 
-// The list of the design, section 5.
+// The list of demo/scenes/README.md.
 TEST_F(Run, StatisticsHaveTheDocumentedKeys) {
   const std::vector<Json> frames = run();
   ASSERT_EQ(frames.size(), 5u);
@@ -109,7 +109,7 @@ TEST_F(Run, CountsAddUpToWhatWasCooked) {
 TEST_F(Run, MassIsTheSolidsAndStays) {
   const std::vector<Json> frames = run();
   for (const Json& frame : frames) {
-    // 0.5 x 0.5 x 0.08 m of 2400 kg/m^3; 1e-6 is what the design allows in float.
+    // 0.5 x 0.5 x 0.08 m of 2400 kg/m^3; 1e-6 is what plugin/README.md, "Ledgers", promises in float.
     EXPECT_NEAR(frame["mass_kg"]["total"].get<double>(), 48, 48e-6);
     EXPECT_LT(frame["mass_kg"]["error"].get<double>(), 1e-6);
   }
