@@ -17,7 +17,7 @@ constexpr int kMostThreads = 256;
 // What CLI11 fills in before it is checked.
 struct Raw {
   std::string size = "1280x720";
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, sweeps;
   std::string frames, seed;
   bool noRender = false;
 };
@@ -65,7 +65,13 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
 
   CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown and CSV");
   addSceneOptions(*report, line, raw);
-  report->add_option("--out", line.run.out, "folder of the CSV, default out/report");
+  report->add_option("--out", line.report.folder, "folder of the CSV, default out/report");
+  report
+      ->add_option("--sweep", raw.sweeps,
+                   "key.path=value;value...: runs with each; may be repeated. Default: precision and substep")
+      ->allow_extra_args(false);
+  report->add_option("--write", line.report.write,
+                     "Markdown file: writes the table between the markers of this very report");
 }
 
 CommandLine::Command command(const CLI::App& app) {
@@ -98,6 +104,9 @@ CommandLine parseCommandLine(int argc, char** argv) {
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
   if (!raw.frames.empty()) line.overrides.push_back({"frames", raw.frames, "--frames"});
   if (!raw.seed.empty()) line.overrides.push_back({"seed", raw.seed, "--seed"});
+  for (const std::string& sweep : raw.sweeps) line.report.sweeps.push_back(parseSweep(sweep));
+  line.report.scene = line.scene;
+  line.report.overrides = line.overrides;
   line.run.render = !raw.noRender;
   parseSize(raw.size, line.run.width, line.run.height);
   line.view.width = line.run.width;

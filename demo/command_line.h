@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
 #include "demo/view.h"
@@ -17,6 +18,7 @@ struct CommandLine {
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
+  ReportOptions report;
 };
 
 /// The text of --help or --version was asked for: ends the program with exit code 0.

@@ -54,10 +54,7 @@ Key<T> vector(std::string name, M member, Range range, std::string unit, std::st
           [=](T& target, const Json& json, const Place& place) {
             target.*member = readVector(json, range, place);
           },
-          [=](const T& target) {
-            const Eigen::Vector3d v = target.*member;
-            return "[" + shown(v.x()) + ", " + shown(v.y()) + ", " + shown(v.z()) + "]";
-          }};
+          [=](const T& target) { return shown(Eigen::Vector3d(target.*member)); }};
 }
 
 /// A direction: any vector but zero; it need not be of unit length.
@@ -110,7 +107,11 @@ Key<T> object(std::string name, M member, const Table<U>& table, std::string mea
                               const Place& place) { readObject(table, target.*member, json, place); },
           .standard = [](const T&) { return std::string("as below"); },
           .describeNested = [&table](std::vector<KeyLine>& lines,
-                                     const std::string& path) { describe(table, lines, path + "."); }};
+                                     const std::string& path) { describe(table, lines, path + "."); },
+          .listNested =
+              [=, &table](std::vector<std::string>& lines, const T& target, const std::string& path) {
+                listValues(table, lines, U(target.*member), path + ".");
+              }};
 }
 
 /// An object whose absence means that the part is left out.
@@ -125,7 +126,15 @@ Key<T> part(std::string name, std::optional<U> T::*member, const Table<U>& table
                           const Place& place) { readObject(table, (target.*member).emplace(), json, place); },
       .standard = [](const T&) { return std::string("left out"); },
       .describeNested = [&table](std::vector<KeyLine>& lines,
-                                 const std::string& path) { describe(table, lines, path + "."); }};
+                                 const std::string& path) { describe(table, lines, path + "."); },
+      .listNested =
+          [=, &table](std::vector<std::string>& lines, const T& target, const std::string& path) {
+            if (target.*member) {
+              listValues(table, lines, *(target.*member), path + ".");
+            } else {
+              lines.push_back(path + " = left out");
+            }
+          }};
 }
 
 template <class T, class U>
@@ -142,7 +151,12 @@ Key<T> list(std::string name, std::vector<U> T::*member, const Table<U>& table, 
               },
           .standard = [](const T&) { return std::string("[]"); },
           .describeNested = [&table](std::vector<KeyLine>& lines,
-                                     const std::string& path) { describe(table, lines, path + ".N."); }};
+                                     const std::string& path) { describe(table, lines, path + ".N."); },
+          .listNested =
+              [=, &table](std::vector<std::string>& lines, const T& target, const std::string& path) {
+                for (std::size_t i = 0; i < (target.*member).size(); ++i)
+                  listValues(table, lines, (target.*member)[i], path + "." + std::to_string(i) + ".");
+              }};
 }
 
 }  // namespace rubble::demo

@@ -48,6 +48,9 @@ std::string shown(double value) {
 std::string shown(float value) {
   return shortest(value);
 }
+std::string shown(const Eigen::Vector3d& value) {
+  return "[" + shown(value.x()) + ", " + shown(value.y()) + ", " + shown(value.z()) + "]";
+}
 
 std::string Range::text() const {
   const bool unlimited = max >= 1e300;

@@ -34,6 +34,7 @@ std::string shown(const Json& value);
 /// Shortest text that reads back as the same number.
 std::string shown(double value);
 std::string shown(float value);
+std::string shown(const Eigen::Vector3d& value);
 
 /// Limits of a number.
 struct Range {
@@ -70,6 +71,8 @@ struct Key {
   std::function<void(std::vector<KeyLine>&, const std::string&)> describeNested = nullptr;
   std::function<std::string(const T&)> limit =
       nullptr;  // what is allowed when the value does not fit the others, or ""
+  // Lines of a nested value; null for values that `standard` shows.
+  std::function<void(std::vector<std::string>&, const T&, const std::string&)> listNested = nullptr;
 
   Key required() && {
     isRequired = true;
@@ -130,6 +133,20 @@ void describe(const Table<T>& table, std::vector<KeyLine>& lines, const std::str
     lines.push_back({prefix + key.name, key.type, key.unit,
                      key.isRequired ? "required" : key.standard(standard), meaning});
     if (key.describeNested) key.describeNested(lines, prefix + key.name);
+  }
+}
+
+/// Appends "path = value" for every key that applies, with its default where none was given.
+template <class T>
+void listValues(const Table<T>& table, std::vector<std::string>& lines, const T& target,
+                const std::string& prefix) {
+  for (const Key<T>& key : table) {
+    if (key.applies && !key.applies(target)) continue;
+    if (key.listNested) {
+      key.listNested(lines, target, prefix + key.name);
+    } else {
+      lines.push_back(prefix + key.name + " = " + key.standard(target));
+    }
   }
 }
 

@@ -29,7 +29,7 @@ void execute(const CommandLine& line) {
       describeScene(scene, std::cout);
       break;
     case CommandLine::Command::Report:
-      reportSubsteps(scene, line.run.out, std::cout);
+      report(line.report, std::cout);
       break;
   }
 }

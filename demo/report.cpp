@@ -1,42 +1,172 @@
 #include "demo/report.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
-#include <vector>
+#include <sstream>
 
+#include "base/hash.h"
 #include "demo/console.h"
 #include "demo/frame.h"
 #include "demo/input_error.h"
+#include "demo/machine.h"
+#include "demo/marked_text.h"
 #include "demo/progress.h"
+#include "rubble/version.h"
 
 namespace rubble::demo {
 namespace {
 
-struct Row {
-  Precision precision;
-  double substep;  // [s]
+constexpr std::size_t kMostRuns = 1000;
+
+// One column of the table.
+struct Column {
+  std::string title;                ///< in the Markdown table
+  std::string name;                 ///< in the CSV
+  std::vector<std::string> values;  ///< one a run
+};
+
+// The settings of one run, one value a sweep.
+using Setting = std::vector<std::string>;
+
+const std::vector<Sweep>& sweepsOf(const ReportOptions& options) {
+  static const std::vector<Sweep> standard = defaultSweeps();
+  return options.sweeps.empty() ? standard : options.sweeps;
+}
+
+// All combinations, the last sweep fastest.
+std::vector<Setting> settingsOf(const std::vector<Sweep>& sweeps) {
+  std::vector<Setting> settings = {{}};
+  for (const Sweep& sweep : sweeps) {
+    std::vector<Setting> longer;
+    for (const Setting& setting : settings) {
+      for (const std::string& value : sweep.values) {
+        longer.push_back(setting);
+        longer.back().push_back(value);
+      }
+    }
+    if (longer.size() > kMostRuns)
+      throw InputError(
+          "--sweep", sweep.key,
+          "makes " + std::to_string(longer.size()) + " runs, must be at most " + std::to_string(kMostRuns));
+    settings = std::move(longer);
+  }
+  return settings;
+}
+
+// All scenes are read before the first is run: a wrong value is refused at once.
+std::vector<Scene> scenesOf(const ReportOptions& options) {
+  const std::vector<Sweep>& sweeps = sweepsOf(options);
+  std::vector<Scene> scenes;
+  for (const Setting& setting : settingsOf(sweeps)) {
+    std::vector<Override> overrides = options.overrides;
+    for (std::size_t s = 0; s < sweeps.size(); ++s)
+      overrides.push_back({sweeps[s].key, setting[s], options.sweeps.empty() ? "report" : "--sweep"});
+    scenes.push_back(loadScene(options.scene, overrides));
+    scenes.back().dust.reset();  // it does not act back on the mechanics
+  }
+  return scenes;
+}
+
+struct Outcome {
+  double substep = 0;  // longest mean of a frame [s]
   Summary summary;
 };
 
-Row measure(const Scene& scene, const Assets& assets, Progress& progress, double done, double share) {
-  World world(scene, assets, consoleLog());
+Outcome measure(const Scene& scene, Progress& progress, double done, double share) {
+  World world(scene, cookObjects(scene), consoleLog());
   Recorder recorder(world, {}, {});
   FrameParts parts{.world = &world, .recorder = &recorder};
-  double substep = 0;
+  Outcome outcome;
   for (int frame = 0; frame < scene.frames; ++frame) {
     runFrame(parts, frame);
-    substep = std::max(substep, world.substepLength());
+    outcome.substep = std::max(outcome.substep, world.substepLength());
     progress.show(done + share * (frame + 1) / scene.frames, "runs");
   }
-  return {scene.precision, substep, recorder.summary()};
+  outcome.summary = recorder.summary();
+  return outcome;
 }
 
-// `separator` between cells; a Markdown row also begins and ends with one.
-void writeRow(std::ostream& out, const Row& row, const char* separator) {
-  out << (row.precision == Precision::Float ? "float" : "double") << separator << row.substep * 1e6
-      << separator << row.summary.counts.springsBroken << separator << row.summary.counts.crushed << separator
-      << row.summary.exitSpeed.value_or(0) << separator << row.summary.ledger.energyError << separator
-      << 1000 * row.summary.seconds / row.summary.frames;
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
+std::string lastPart(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+std::vector<Column> columnsOf(const std::vector<Sweep>& sweeps, const std::vector<Outcome>& outcomes) {
+  std::vector<Column> columns;
+  const std::vector<Setting> settings = settingsOf(sweeps);
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    columns.push_back({lastPart(sweeps[s].key), sweeps[s].key, {}});
+    for (const Setting& setting : settings) columns.back().values.push_back(setting[s]);
+  }
+  const auto add = [&](const char* title, const char* name, auto&& value) {
+    columns.push_back({title, name, {}});
+    for (const Outcome& o : outcomes) columns.back().values.push_back(value(o));
+  };
+  add("substep, us", "substep_us", [](const Outcome& o) { return rounded(1e6 * o.substep); });
+  add("broken springs", "broken_springs",
+      [](const Outcome& o) { return std::to_string(o.summary.counts.springsBroken); });
+  add("crushed", "crushed", [](const Outcome& o) { return std::to_string(o.summary.counts.crushed); });
+  add("dust, g", "dust_g", [](const Outcome& o) { return rounded(1e3 * o.summary.ledger.massDustEmitted); });
+  add("exit speed, m/s", "exit_speed_m_s", [](const Outcome& o) {
+    return o.summary.exitSpeed ? rounded(*o.summary.exitSpeed) : std::string("-");
+  });
+  add("energy error", "energy_error", [](const Outcome& o) { return rounded(o.summary.ledger.energyError); });
+  add("ms a frame", "ms_per_frame",
+      [](const Outcome& o) { return rounded(1000 * o.summary.seconds / o.summary.frames); });
+  return columns;
+}
+
+// A CSV field; JSON values hold commas and quotes.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + '"';
+}
+
+std::string csvOf(const std::vector<Column>& columns) {
+  std::ostringstream text;
+  for (const Column& c : columns) text << (&c == &columns.front() ? "" : ",") << quoted(c.name);
+  text << '\n';
+  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+    for (const Column& c : columns) text << (&c == &columns.front() ? "" : ",") << quoted(c.values[row]);
+    text << '\n';
+  }
+  return text.str();
+}
+
+std::string markdownOf(const std::vector<Column>& columns) {
+  std::ostringstream text;
+  text << '|';
+  for (const Column& c : columns) text << ' ' << c.title << " |";
+  text << "\n|";
+  for (std::size_t c = 0; c < columns.size(); ++c) text << "---|";
+  text << '\n';
+  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+    text << '|';
+    for (const Column& c : columns) text << ' ' << c.values[row] << " |";
+    text << '\n';
+  }
+  return text.str();
+}
+
+// The arguments that make this report again.
+std::string argumentsOf(const ReportOptions& options) {
+  std::string text = options.scene;
+  for (const Override& o : options.overrides)
+    text += o.source == "--set" ? " --set " + o.path + "=" + o.value : " " + o.source + " " + o.value;
+  for (const Sweep& sweep : options.sweeps) {
+    text += " --sweep " + sweep.key + "=";
+    for (const std::string& value : sweep.values)
+      text += (&value == &sweep.values.front() ? "" : ";") + value;
+  }
+  return text;
 }
 
 std::ofstream openTable(const std::filesystem::path& file) {
@@ -47,47 +177,64 @@ std::ofstream openTable(const std::filesystem::path& file) {
   return table;
 }
 
-std::vector<Row> measureAll(const Scene& wholeScene, const Assets& assets) {
-  const std::vector<double> shares = {1, 0.5, 0.25};  // of the scene's substep
-  constexpr double kRuns = 6;
-  Progress progress("report");
-  std::vector<Row> rows;
-  for (const Precision precision : {Precision::Float, Precision::Double}) {
-    for (const double share : shares) {
-      Scene scene = wholeScene;
-      scene.precision = precision;
-      scene.substepSafety *= share;
-      rows.push_back(measure(scene, assets, progress, double(rows.size()) / kRuns, 1 / kRuns));
-    }
-  }
-  return rows;
-}
-
 }  // namespace
 
-void reportSubsteps(const Scene& wholeScene, std::filesystem::path folder, std::ostream& out) {
-  if (folder.empty()) folder = std::filesystem::path("out") / "report";
-  const std::filesystem::path file = folder / (wholeScene.name + ".csv");
-  Scene scene = wholeScene;
-  scene.dust.reset();  // it does not act back on the mechanics
-  const Assets assets = cookWithProgress(scene);
-  std::ofstream table = openTable(file);
-  const std::vector<Row> rows = measureAll(scene, assets);
-
-  table << "precision,substep_us,broken_springs,crushed,exit_speed_m_s,energy_error,ms_per_frame\n";
-  out << "| precision | substep, us | broken springs | crushed | exit speed, m/s | energy error | ms a frame "
-         "|\n"
-      << "|---|---|---|---|---|---|---|\n"
-      << std::setprecision(3);
-  for (const Row& row : rows) {
-    writeRow(table, row, ",");
-    table << '\n';
-    out << "| ";
-    writeRow(out, row, " | ");
-    out << " |\n";
+Sweep parseSweep(const std::string& text) {
+  const Override first = parseOverride(text, "--sweep");
+  Sweep sweep{first.path, {}};
+  std::istringstream values(first.value);
+  for (std::string value; std::getline(values, value, ';');) {
+    if (value.empty()) throw InputError("--sweep", text, "has an empty value, must be key.path=value;value");
+    sweep.values.push_back(value);
   }
-  out << "table: " << file.string() << '\n';
-  if (!table.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+  if (sweep.values.empty()) throw InputError("--sweep", text, "has no value, must be key.path=value;value");
+  return sweep;
+}
+
+std::vector<Sweep> defaultSweeps() {
+  return {{"precision", {"float", "double"}}, {"substep_safety", {"0.9", "0.45", "0.225"}}};
+}
+
+std::string reportHash(const ReportOptions& options) {
+  base::Fnv1a hash;
+  const auto add = [&](const std::string& text) { hash.add(std::as_bytes(std::span(text))); };
+  for (const Scene& scene : scenesOf(options)) {
+    for (const std::string& line : listScene(scene)) {
+      const bool isLook = line.starts_with("camera.") || line.starts_with("light.");
+      if (!isLook) add(line + "\n");
+    }
+  }
+  hash.add(kSolverVersionFloat);
+  hash.add(kSolverVersionDouble);
+  std::ostringstream text;
+  text << std::hex << std::setw(16) << std::setfill('0') << hash.value();
+  return text.str();
+}
+
+void report(const ReportOptions& options, std::ostream& out) {
+  const std::vector<Scene> scenes = scenesOf(options);
+  const std::filesystem::path folder = options.folder.empty() ? "out/report" : options.folder;
+  const std::filesystem::path csv = folder / (scenes.front().name + ".csv");
+  std::optional<MarkedText> document;
+  if (!options.write.empty()) document.emplace(options.write, "rubble report " + argumentsOf(options));
+  std::ofstream table = openTable(csv);
+
+  Progress progress("report");
+  std::vector<Outcome> outcomes;
+  const double share = 1.0 / double(scenes.size());
+  for (const Scene& scene : scenes)
+    outcomes.push_back(measure(scene, progress, share * double(outcomes.size()), share));
+
+  const std::vector<Column> columns = columnsOf(sweepsOf(options), outcomes);
+  const std::string markdown = markdownOf(columns);
+  out << markdown;
+  table << csvOf(columns);
+  out << "table: " << csv.string() << '\n';
+  if (!table.flush()) throw std::runtime_error(csv.string() + ": cannot be written: is the disk full?");
+  if (!document) return;
+  document->replace(markdown + "\nMilliseconds are of one core of " + machineName() + ".\n",
+                    reportHash(options));
+  out << "written: " << options.write.string() << '\n';
 }
 
 }  // namespace rubble::demo

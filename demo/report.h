@@ -1,16 +1,43 @@
-// `rubble report wall`: the error that remains, against the time it takes.
+// `rubble report SCENE`: the same scene at several settings, as a table. Error against run time first of all,
+// but any key can be swept.
 #pragma once
 
 #include <filesystem>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "demo/scene.h"
 
 namespace rubble::demo {
 
-/// Runs the scene without pictures and dust, in float and double, at its substep and at a half and a quarter
-/// of it. Prints a Markdown table and writes the same as SCENE.csv in
-/// `folder` (empty: out/report). Throws InputError, RunStopped.
-void reportSubsteps(const Scene& scene, std::filesystem::path folder, std::ostream& out);
+/// A key and the values it takes, one run each.
+struct Sweep {
+  std::string key;
+  std::vector<std::string> values;  ///< JSON or bare words, as in --set
+};
+/// Splits `key.path=value;value;...`. Throws InputError.
+Sweep parseSweep(const std::string& text);
+
+struct ReportOptions {
+  std::string scene;
+  std::vector<Override> overrides;  ///< of all runs
+  /// Empty: precision and substep, see defaultSweeps.
+  std::vector<Sweep> sweeps;
+  std::filesystem::path folder;  ///< of the CSV; empty: out/report
+  std::filesystem::path write;   ///< a Markdown file that holds this report's markers; empty: none
+};
+
+/// Float and double, each at the scene's substep, a half and a quarter of it.
+std::vector<Sweep> defaultSweeps();
+
+/// What the numbers of a report depend on: every key of every scene in it, and the version of the solver. As
+/// 16 hexadecimal digits.
+std::string reportHash(const ReportOptions& options);
+
+/// Runs every combination without pictures and dust, prints a Markdown table, writes it as SCENE.csv and, if
+/// asked, between the markers of a Markdown file. Throws InputError before the first run when a setting or a
+/// file is wrong, RunStopped.
+void report(const ReportOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

@@ -173,12 +173,12 @@ std::string sceneNames() {
   return text;
 }
 
-Override parseOverride(const std::string& text) {
+Override parseOverride(const std::string& text, const std::string& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError("--set", text, "is not a setting, must be key.path=value");
+    throw InputError(source, text, "is not a setting, must be key.path=value");
   }
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  return {text.substr(0, equals), text.substr(equals + 1), source};
 }
 
 Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& overrides) {

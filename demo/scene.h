@@ -107,7 +107,7 @@ struct Override {
   std::string source = "--set";  ///< as errors name it
 };
 /// Splits `key.path=value`. Throws InputError.
-Override parseOverride(const std::string& text);
+Override parseOverride(const std::string& text, const std::string& source = "--set");
 
 /// Reads, merges, checks. `nameOrPath` is a name in the folder of scenes or a path to a JSON file. Throws
 /// InputError with one line that names file, key, value and what is allowed; nothing else has happened then.
@@ -120,6 +120,10 @@ std::filesystem::path sceneFolder();
 std::string sceneNames();
 /// Folder of the shaders, found alike.
 std::filesystem::path shaderFolder();
+
+/// Every key of the scene with its value, defaults and presets spelt out: "objects.0.material.density =
+/// 2400". Two scenes with the same lines simulate the same.
+std::vector<std::string> listScene(const Scene& scene);
 
 /// The tables of all keys as Markdown; demo/scenes/README.md holds them, and a test compares.
 std::string describeKeys();

@@ -135,7 +135,7 @@ const Table<SceneObject>& objectKeys() {
          target.anchor = readVector(json, kPosition, place);
          if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
        },
-       [](const SceneObject&) { return std::string("not tied"); }},
+       [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }},
       number<SceneObject>("mass_damping", &SceneObject::massDamping, between(0, 1e4), "1/s",
                           "decay rate of the deformation; the rigid motion is not damped"),
       object<SceneObject, Material>("material", &SceneObject::material, materialKeys(), "what it is made of"),
@@ -318,6 +318,12 @@ const Table<Scene>& allKeys() {
 
 const Table<Scene>& sceneKeys() {
   return allKeys();
+}
+
+std::vector<std::string> listScene(const Scene& scene) {
+  std::vector<std::string> lines;
+  listValues(allKeys(), lines, scene, "");
+  return lines;
 }
 
 std::string describeKeys() {

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "demo/summary.h"
 #include "scenes/scene_file.h"
 
 namespace rubble::test {
