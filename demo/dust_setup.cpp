@@ -2,6 +2,7 @@
 
 #include "demo/bullet_eigen.h"
 #include "demo/input_error.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -59,6 +60,8 @@ std::unique_ptr<DustGrid> makeDust(const Scene& scene, Renderer3D renderer, int 
     const DustGridDef def = gridDef(scene, threads);
     return backend == DustBackend::Gl ? createDustGridGl(def, shaderFolder().string())
                                       : createDustGridCpu(def);
+  } catch (const MachineError&) {
+    throw;
   } catch (const Error& error) {
     throw InputError(scene.file, "dust", error.what());
   }

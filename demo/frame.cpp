@@ -1,7 +1,9 @@
 #include "demo/frame.h"
 
 #include "base/stopwatch.h"
+#include "demo/input_error.h"
 #include "demo/picture_writer.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -16,6 +18,18 @@ void drawFrame(FrameParts& parts, int frame) {
   parts.pictures->save(frame, parts.framebuffer->readPixels());
 }
 
+// The scene was accepted: what the library refuses now is a state that went wrong.
+template <class Work>
+void advance(int frame, const Work& work) {
+  try {
+    work();
+  } catch (const MachineError&) {
+    throw;
+  } catch (const Error& error) {
+    throw RunStopped("frame " + std::to_string(frame) + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void runFrame(FrameParts& parts, int frame) {
@@ -24,9 +38,9 @@ void runFrame(FrameParts& parts, int frame) {
   parts.world->step();
   const Events& events = parts.world->destruction().takeEvents();
   times.step = watch.lap();
-  if (parts.dust) stepDust(parts, events);
+  if (parts.dust) advance(frame, [&] { stepDust(parts, events); });
   times.dust = watch.lap();
-  if (parts.stage) parts.stage->update(*parts.world);
+  if (parts.stage) advance(frame, [&] { parts.stage->update(*parts.world); });
   times.upload = watch.lap();
   if (parts.framebuffer) drawFrame(parts, frame);
   times.render = watch.lap();

@@ -24,7 +24,8 @@ struct FrameParts {
   std::vector<DustObstacle> obstacles = {};  // kept from frame to frame for its memory
 };
 
-/// Simulates, draws, saves and records frame number `frame`. Throws RunStopped.
+/// Simulates, draws, saves and records frame number `frame`. Throws RunStopped, and MachineError
+/// when it cannot be drawn or written.
 void runFrame(FrameParts& parts, int frame);
 
 }  // namespace rubble::demo

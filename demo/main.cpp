@@ -1,17 +1,20 @@
 // rubble: runs, shows and describes scenes of destruction. Arguments -> scene -> loop.
 #include <exception>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "demo/command_line.h"
 #include "demo/info.h"
 #include "demo/input_error.h"
 #include "demo/report.h"
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 
 namespace {
 
 using namespace rubble::demo;
 
+// `rubble --help` lists them.
 enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kStopped = 3 };
 
 void execute(const CommandLine& line) {
@@ -39,21 +42,36 @@ int fail(ExitCode code, const std::string& text) {
   return code;
 }
 
+int failWithoutMemory() {
+  return fail(kFailed, "out of memory; fewer elements, a coarser dust grid or smaller pictures need less");
+}
+
+int finish() {
+  if (std::cout.flush()) return kDone;
+  return fail(kFailed, "standard output cannot be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     execute(parseCommandLine(argc, argv));
-    return kDone;
+    return finish();
   } catch (const HelpWanted& help) {
     std::cout << help.text;
-    return kDone;
+    return finish();
   } catch (const InputError& error) {
-    return fail(kBadInput, error.what());
-  } catch (const rubble::Error& error) {
     return fail(kBadInput, error.what());
   } catch (const RunStopped& stop) {
     return fail(kStopped, stop.what());
+  } catch (const rubble::MachineError& error) {
+    return fail(kFailed, error.what());
+  } catch (const rubble::Error& error) {  // the library refuses a definition, so the scene is at fault
+    return fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return failWithoutMemory();
+  } catch (const std::length_error&) {  // of a container that can never hold so much
+    return failWithoutMemory();
   } catch (const std::exception& error) {
     return fail(kFailed, error.what());
   }

@@ -4,7 +4,6 @@
 
 #include "demo/console.h"
 #include "demo/frame.h"
-#include "demo/input_error.h"
 #include "demo/orbit_camera.h"
 #include "demo/panel.h"
 #include "demo/window/glfw_window.h"
@@ -78,18 +77,14 @@ class Pace {
 };
 
 std::unique_ptr<GlfwWindow> openWindow(const Scene& scene, const ViewOptions& options) {
-  try {
-    return std::make_unique<GlfwWindow>(("rubble: " + scene.name).c_str(), options.width, options.height);
-  } catch (const Error& error) {
-    throw InputError(scene.file, "window", error.what());
-  }
+  return std::make_unique<GlfwWindow>(("rubble: " + scene.name).c_str(), options.width, options.height);
 }
 
 }  // namespace
 
 void viewScene(const Scene& scene, const ViewOptions& options) {
+  const std::unique_ptr<GlfwWindow> window = openWindow(scene, options);  // or fails at once
   const Assets assets = cookWithProgress(scene);
-  const std::unique_ptr<GlfwWindow> window = openWindow(scene, options);
   Panel panel(window->handle(), scene);
   OrbitCamera camera(sceneCamera(scene.camera));
   Pace pace(scene.fps);

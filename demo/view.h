@@ -11,7 +11,8 @@ struct ViewOptions {
   bool closeAtEnd = false;  ///< close after the scene's frames rather than go on
 };
 
-/// Returns when the window is closed. Throws InputError, RunStopped.
+/// Returns when the window is closed. Throws InputError, RunStopped, and MachineError where
+/// there is no display.
 void viewScene(const Scene& scene, const ViewOptions& options);
 
 }  // namespace rubble::demo

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -19,7 +19,7 @@ std::string lastProblem() {
 }  // namespace
 
 GlfwWindow::Library::Library() {
-  if (!glfwInit()) throw Error("window: there is no display to open one on: " + lastProblem());
+  if (!glfwInit()) throw MachineError("window: there is no display to open one on: " + lastProblem());
 }
 
 GlfwWindow::Library::~Library() {
@@ -36,7 +36,7 @@ GlfwWindow::GlfwWindow(const char* title, int width, int height) {
   glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   m_window = glfwCreateWindow(width, height, title, nullptr, nullptr);
-  if (!m_window) throw Error("window: cannot be opened with OpenGL 4.3: " + lastProblem());
+  if (!m_window) throw MachineError("window: cannot be opened with OpenGL 4.3: " + lastProblem());
   glfwMakeContextCurrent(m_window);
   glfwSwapInterval(1);
 }

@@ -11,7 +11,7 @@ namespace rubble::demo {
 /// swapBuffers().
 class GlfwWindow {
  public:
-  /// Sizes in screen coordinates. Throws rubble::Error with GLFW's reason when there is no display or no
+  /// Sizes in screen coordinates. Throws MachineError with GLFW's reason when there is no display or no
   /// OpenGL 4.3.
   GlfwWindow(const char* title, int width, int height);
   ~GlfwWindow();

@@ -2,9 +2,12 @@
 
 #include <png.h>
 
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
@@ -36,15 +39,20 @@ void writePng(const std::filesystem::path& file, const Image& image) {
   png.format = PNG_FORMAT_RGB;
   // Beside the file first, so that who watches the folder never sees half a picture.
   const std::string unfinished = name + ".part";
+  errno = 0;
   if (!png_image_write_to_file(&png, unfinished.c_str(), 0, rgb.data(), 0, nullptr)) {
-    const std::string reason = png.message;
+    // libpng says "Write Error" for a full disk; the system knows better.
+    const std::string reason = errno != 0 ? std::generic_category().message(errno) : png.message;
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
-    throw Error(name + ": cannot be written: " + reason);
+    throw MachineError(name + ": cannot be written: " + reason);
   }
   std::error_code failure;
   std::filesystem::rename(unfinished, file, failure);
-  if (failure) throw Error(name + ": cannot be written: " + failure.message());
+  if (!failure) return;
+  std::error_code ignored;
+  std::filesystem::remove(unfinished, ignored);
+  throw MachineError(name + ": cannot be written: " + failure.message());
 }
 
 }  // namespace rubble::demo

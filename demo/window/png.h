@@ -7,8 +7,8 @@
 
 namespace rubble::demo {
 
-/// Writes the picture without its alpha channel. The file appears whole or not at all. Throws rubble::Error
-/// naming the file.
+/// Writes the picture without its alpha channel. The file appears whole or not at all. Throws
+/// MachineError naming the file.
 void writePng(const std::filesystem::path& file, const Image& image);
 
 }  // namespace rubble::demo

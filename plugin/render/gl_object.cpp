@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::render {
 namespace {
@@ -115,8 +115,8 @@ FramebufferName makeFramebuffer(const char* what, std::span<const GLuint> colour
   }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error(std::string("render: the framebuffer of ") + what + " is not complete (status " +
-                std::to_string(status) + ")");
+    throw MachineError(std::string("render: the framebuffer of ") + what + " is not complete (status " +
+                       std::to_string(status) + ")");
   }
   return framebuffer;
 }
@@ -124,8 +124,8 @@ FramebufferName makeFramebuffer(const char* what, std::span<const GLuint> colour
 void checkGl(const char* what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
-  throw Error(std::string("render: ") + what + ": OpenGL error " + std::to_string(error) +
-              (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+  throw MachineError(std::string("render: ") + what + ": OpenGL error " + std::to_string(error) +
+                     (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
 }
 
 }  // namespace rubble::render

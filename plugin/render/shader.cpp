@@ -4,7 +4,7 @@
 #include <sstream>
 #include <vector>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::render {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 constexpr int kMaxIncludeDepth = 8;
 
 void splice(const std::string& directory, const std::string& file, int depth, std::string& out) {
-  if (depth > kMaxIncludeDepth) throw Error("shader " + file + ": includes nested too deep");
+  if (depth > kMaxIncludeDepth) throw MachineError("shader " + file + ": includes nested too deep");
   std::ifstream stream(directory + "/" + file);
-  if (!stream) throw Error("shader " + file + ": cannot be read from " + directory);
+  if (!stream) throw MachineError("shader " + file + ": cannot be read from " + directory);
   const std::string key = "#include \"";
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -24,7 +24,7 @@ void splice(const std::string& directory, const std::string& file, int depth, st
     }
     const std::size_t end = line.find('"', key.size());
     if (end == std::string::npos)
-      throw Error("shader " + file + ": line " + std::to_string(number) + ": unclosed #include");
+      throw MachineError("shader " + file + ": line " + std::to_string(number) + ": unclosed #include");
     splice(directory, line.substr(key.size(), end - key.size()), depth + 1, out);
     out += "#line " + std::to_string(number + 1) + "\n";
   }
@@ -51,13 +51,13 @@ ShaderName compile(const std::string& directory, const Stage& stage) {
       "#version 430 core\n" + std::string(stage.defines) + "#line 1\n" + readShader(directory, stage.file);
   ShaderName shader(glCreateShader(stage.type));
   if (shader.id() == 0)
-    throw Error(std::string("shader ") + stage.file + ": this context cannot make such a shader");
+    throw MachineError(std::string("shader ") + stage.file + ": this context cannot make such a shader");
   const char* source = text.c_str();
   glShaderSource(shader.id(), 1, &source, nullptr);
   glCompileShader(shader.id());
   GLint ok = GL_FALSE;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &ok);
-  if (ok != GL_TRUE) throw Error(std::string("shader ") + stage.file + ": " + shaderLog(shader.id()));
+  if (ok != GL_TRUE) throw MachineError(std::string("shader ") + stage.file + ": " + shaderLog(shader.id()));
   return shader;
 }
 
@@ -82,7 +82,7 @@ ProgramName makeProgram(const std::string& shaderDirectory, std::initializer_lis
   for (const ShaderName& shader : shaders) glDetachShader(program.id(), shader.id());
   GLint ok = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
-  if (ok != GL_TRUE) throw Error("shaders " + names + ": " + programLog(program.id()));
+  if (ok != GL_TRUE) throw MachineError("shaders " + names + ": " + programLog(program.id()));
   return program;
 }
 

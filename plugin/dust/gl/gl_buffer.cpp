@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::dust {
 
@@ -68,8 +68,8 @@ void GlBuffer::read(std::span<std::byte> bytes) const {
 void checkGl(const char* what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
-  throw Error(std::string("dust: ") + what + ": OpenGL error " + std::to_string(error) +
-              (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+  throw MachineError(std::string("dust: ") + what + ": OpenGL error " + std::to_string(error) +
+                     (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
 }
 
 }  // namespace rubble::dust

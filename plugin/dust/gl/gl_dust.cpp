@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dust/definition.h"
+#include "rubble/machine_error.h"
 #include "shared/dust.h"
 
 namespace rubble::dust {
@@ -18,15 +19,16 @@ using shared::vec4;
 // front of the other members.
 const std::string& checkedContext(const Lattice& lattice, const std::string& shaderDirectory) {
   if (epoxy_gl_version() < 43 || !epoxy_is_desktop_gl()) {
-    throw Error("dust: the GL back end needs a current OpenGL 4.3 context, this one is " +
-                std::to_string(epoxy_gl_version() / 10) + "." + std::to_string(epoxy_gl_version() % 10));
+    throw MachineError("dust: the GL back end needs a current OpenGL 4.3 context, this one is " +
+                       std::to_string(epoxy_gl_version() / 10) + "." +
+                       std::to_string(epoxy_gl_version() % 10));
   }
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   const auto largest = GLint64(lattice.cells() * sizeof(vec4));
   if (largest > most) {
-    throw Error("dust: resolution: a storage buffer of " + std::to_string(largest) +
-                " bytes is needed, the driver has at most " + std::to_string(most));
+    throw MachineError("dust: resolution: a storage buffer of " + std::to_string(largest) +
+                       " bytes is needed, the driver has at most " + std::to_string(most));
   }
   return shaderDirectory;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
 #include "shared/dust.h"
 
 namespace rubble::dust {
@@ -25,9 +25,9 @@ std::string define(const char* name, int value) {
 
 // The text of a file with `#include "..."` replaced, relative to the shader directory.
 void splice(const std::string& directory, const std::string& file, int depth, std::string& out) {
-  if (depth > kMaxIncludeDepth) throw Error("shader " + file + ": includes nested too deep");
+  if (depth > kMaxIncludeDepth) throw MachineError("shader " + file + ": includes nested too deep");
   std::ifstream stream(directory + "/" + file);
-  if (!stream) throw Error("shader " + file + ": cannot be read from " + directory);
+  if (!stream) throw MachineError("shader " + file + ": cannot be read from " + directory);
   const std::string key = "#include \"";
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -37,7 +37,7 @@ void splice(const std::string& directory, const std::string& file, int depth, st
     }
     const std::size_t end = line.find('"', key.size());
     if (end == std::string::npos) {
-      throw Error("shader " + file + ": line " + std::to_string(number) + ": unclosed #include");
+      throw MachineError("shader " + file + ": line " + std::to_string(number) + ": unclosed #include");
     }
     splice(directory, line.substr(key.size(), end - key.size()), depth + 1, out);
     out += "#line " + std::to_string(number + 1) + "\n";
@@ -86,7 +86,7 @@ GlKernel GlKernelSource::build(const std::string& file, const std::string& defin
   splice(m_directory, "dust/" + file, 0, text);
 
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-  if (shader == 0) throw Error("shader dust/" + file + ": this context cannot make compute shaders");
+  if (shader == 0) throw MachineError("shader dust/" + file + ": this context cannot make compute shaders");
   const char* source = text.c_str();
   glShaderSource(shader, 1, &source, nullptr);
   glCompileShader(shader);
@@ -95,7 +95,7 @@ GlKernel GlKernelSource::build(const std::string& file, const std::string& defin
   if (ok != GL_TRUE) {
     const std::string log = logOf(shader, glGetShaderiv, glGetShaderInfoLog);
     glDeleteShader(shader);
-    throw Error("shader dust/" + file + ": " + log);
+    throw MachineError("shader dust/" + file + ": " + log);
   }
   const GLuint program = glCreateProgram();
   GlKernel kernel(program);
@@ -106,7 +106,7 @@ GlKernel GlKernelSource::build(const std::string& file, const std::string& defin
   ok = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &ok);
   if (ok != GL_TRUE) {
-    throw Error("shader dust/" + file + ": " + logOf(program, glGetProgramiv, glGetProgramInfoLog));
+    throw MachineError("shader dust/" + file + ": " + logOf(program, glGetProgramiv, glGetProgramInfoLog));
   }
   return kernel;
 }
