@@ -2,10 +2,10 @@
 
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "demo/input_error.h"
+#include "demo/output_file.h"
 
 namespace rubble::demo {
 namespace {
@@ -69,17 +69,7 @@ void MarkedText::replace(const std::string& part, const std::string& dependsOn) 
   const std::size_t begin = text.find(beginOf(m_command)) + beginOf(m_command).size();
   const std::size_t end = endOf(text, begin, m_file, m_command);
   const std::size_t rest = text.find(kClose, end);
-  const std::filesystem::path unfinished = m_file.string() + ".part";
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream << text.substr(0, begin) << '\n' << part << '\n' << kEnd << dependsOn << text.substr(rest);
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(unfinished, m_file, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw std::runtime_error(m_file.string() + ": cannot be written: is the disk full?");
-  }
+  writeWhole(m_file, text.substr(0, begin) + "\n" + part + "\n" + kEnd + dependsOn + text.substr(rest));
 }
 
 }  // namespace rubble::demo

@@ -25,7 +25,7 @@ class MarkedText {
   MarkedText(std::filesystem::path file, std::string command);
 
   /// Puts `text` between the markers; the file is replaced as a whole or not at all. Throws
-  /// std::runtime_error when it cannot be written.
+  /// MachineError.
   void replace(const std::string& text, const std::string& dependsOn);
 
  private:

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 #include "demo/event_lines.h"
 #include "demo/input_error.h"
@@ -12,14 +11,6 @@ namespace rubble::demo {
 namespace {
 
 using Line = nlohmann::ordered_json;
-
-std::ofstream open(const std::filesystem::path& file) {
-  std::ofstream stream;
-  if (file.empty()) return stream;
-  stream.open(file, std::ios::trunc);
-  if (!stream) throw InputError(file.string(), "", "cannot be written, must be a file in an existing folder");
-  return stream;
-}
 
 // 64 bits as text: JSON numbers hold 53.
 std::string hex(std::uint64_t value) {
@@ -86,7 +77,10 @@ void requireFinite(const Line& value, const std::string& path, int frame) {
 
 Recorder::Recorder(const World& world, const std::filesystem::path& stats,
                    const std::filesystem::path& events)
-    : m_stats(open(stats)), m_events(open(events)), m_exitSpeed(world) {}
+    : m_exitSpeed(world) {
+  if (!stats.empty()) m_stats.emplace(stats);
+  if (!events.empty()) m_events.emplace(events);
+}
 
 void Recorder::record(int frame, World& world, const DustGrid* dust, const Events& events,
                       const FrameTimes& times) {
@@ -108,10 +102,12 @@ void Recorder::record(int frame, World& world, const DustGrid* dust, const Event
   m_line["hash_debris"] = hex(destruction.debrisHash());
   requireFinite(m_line, "", frame);
 
-  if (m_stats.is_open()) m_stats << m_line.dump() << '\n';
-  if (m_events.is_open()) writeEvents(m_events, frame, events);
-  if (!m_stats || !m_events)
-    throw std::runtime_error("statistics or events cannot be written: is the disk full?");
+  if (m_events) {
+    std::ostringstream lines;
+    writeEvents(lines, frame, events);
+    m_events->append(lines.str());
+  }
+  if (m_stats) m_stats->append(m_line.dump() + "\n");
   m_exitSpeed.update(world);
   m_summary.frames += 1;
   m_summary.seconds += times.total / 1000;

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "demo/exit_speed.h"
+#include "demo/output_file.h"
 #include "demo/world.h"
 #include "rubble/dust.h"
 
@@ -27,14 +27,16 @@ struct Summary {
   DustTotals dust;
   std::optional<double> exitSpeed;  ///< [m/s], of the first impactor
   std::uint32_t eventsDropped = 0;
+  std::string drawnBy;  ///< name of the GL renderer; empty without pictures
 };
 
 class Recorder {
  public:
-  /// Empty paths: nothing is written. Throws InputError when a file cannot be made.
+  /// Empty paths: nothing is written. Throws MachineError when a file cannot be made.
   Recorder(const World& world, const std::filesystem::path& stats, const std::filesystem::path& events);
 
-  /// Books one frame. Throws RunStopped when a number is no longer finite.
+  /// Books one frame. Throws RunStopped when a number is no longer finite, and MachineError when a file
+  /// cannot be written; the files then end with their last whole frame.
   void record(int frame, World& world, const DustGrid* dust, const Events& events, const FrameTimes& times);
 
   /// The line of the last frame.
@@ -42,7 +44,7 @@ class Recorder {
   const Summary& summary() const { return m_summary; }
 
  private:
-  std::ofstream m_stats, m_events;
+  std::optional<OutputFile> m_stats, m_events;
   nlohmann::ordered_json m_line;
   ExitSpeed m_exitSpeed;
   Summary m_summary;

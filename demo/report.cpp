@@ -1,7 +1,6 @@
 #include "demo/report.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -11,6 +10,7 @@
 #include "demo/input_error.h"
 #include "demo/machine.h"
 #include "demo/marked_text.h"
+#include "demo/output_file.h"
 #include "demo/progress.h"
 #include "rubble/version.h"
 
@@ -169,14 +169,6 @@ std::string argumentsOf(const ReportOptions& options) {
   return text;
 }
 
-std::ofstream openTable(const std::filesystem::path& file) {
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  std::ofstream table(file);
-  if (!table) throw InputError("--out", file.string(), "cannot be written, must be in a folder that can");
-  return table;
-}
-
 }  // namespace
 
 Sweep parseSweep(const std::string& text) {
@@ -217,7 +209,9 @@ void report(const ReportOptions& options, std::ostream& out) {
   const std::filesystem::path csv = folder / (scenes.front().name + ".csv");
   std::optional<MarkedText> document;
   if (!options.write.empty()) document.emplace(options.write, "rubble report " + argumentsOf(options));
-  std::ofstream table = openTable(csv);
+  checkFolder("--out", folder);
+  checkFile("--out", csv, folder);
+  makeFolder(folder);
 
   Progress progress("report");
   std::vector<Outcome> outcomes;
@@ -228,9 +222,8 @@ void report(const ReportOptions& options, std::ostream& out) {
   const std::vector<Column> columns = columnsOf(sweepsOf(options), outcomes);
   const std::string markdown = markdownOf(columns);
   out << markdown;
-  table << csvOf(columns);
+  writeWhole(csv, csvOf(columns));
   out << "table: " << csv.string() << '\n';
-  if (!table.flush()) throw std::runtime_error(csv.string() + ": cannot be written: is the disk full?");
   if (!document) return;
   document->replace(markdown + "\nMilliseconds are of one core of " + machineName() + ".\n",
                     reportHash(options));

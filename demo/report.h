@@ -37,7 +37,7 @@ std::string reportHash(const ReportOptions& options);
 
 /// Runs every combination without pictures and dust, prints a Markdown table, writes it as SCENE.csv and, if
 /// asked, between the markers of a Markdown file. Throws InputError before the first run when a setting or a
-/// file is wrong, RunStopped.
+/// file is wrong, MachineError, RunStopped.
 void report(const ReportOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

@@ -33,6 +33,7 @@ void printSummary(std::ostream& out, const Summary& s) {
   if (s.frames > 0)
     row(out, "time",
         text(1000 * s.seconds / s.frames) + " ms a frame, " + std::to_string(s.frames) + " frames");
+  if (!s.drawnBy.empty()) row(out, "drawn by", s.drawnBy);
   if (s.eventsDropped > 0) row(out, "events dropped", std::to_string(s.eventsDropped) + "; raise max_events");
 }
 
