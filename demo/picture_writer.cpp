@@ -11,13 +11,8 @@ constexpr std::size_t kLongestQueue = 8;  // 1280 x 720 pictures: 30 MB
 
 }  // namespace
 
-std::string pictureName(int frame) {
-  const std::string digits = std::to_string(frame);
-  return "frame_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".png";
-}
-
-PictureWriter::PictureWriter(std::filesystem::path folder)
-    : m_folder(std::move(folder)), m_thread([this] { work(); }) {}
+PictureWriter::PictureWriter(std::filesystem::path folder, PictureList* list)
+    : m_folder(std::move(folder)), m_list(list), m_thread([this] { work(); }) {}
 
 PictureWriter::~PictureWriter() {
   {
@@ -55,6 +50,7 @@ void PictureWriter::work() {
     lock.unlock();
     std::exception_ptr failure;
     try {
+      if (m_list) m_list->add(pictureName(job.frame));
       writePng(m_folder / pictureName(job.frame), job.image);
     } catch (...) {
       failure = std::current_exception();

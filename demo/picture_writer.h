@@ -8,14 +8,16 @@
 #include <mutex>
 #include <thread>
 
+#include "demo/picture_list.h"
 #include "rubble/render.h"
 
 namespace rubble::demo {
 
 class PictureWriter {
  public:
-  /// Pictures go to `folder` as frame_0000.png and so on.
-  explicit PictureWriter(std::filesystem::path folder);
+  /// Pictures go to `folder` as frame_0000.png and so on (pictureName), and into `list` if there is one. The
+  /// list must outlive this object, and is used from its thread until finish() has returned.
+  explicit PictureWriter(std::filesystem::path folder, PictureList* list = nullptr);
   /// Waits for what has been handed over.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
@@ -35,6 +37,7 @@ class PictureWriter {
   void throwFailure();
 
   std::filesystem::path m_folder;
+  PictureList* m_list;
   std::mutex m_mutex;
   std::condition_variable m_changed;
   std::deque<Job> m_jobs;  // the one at the front is being written
@@ -42,8 +45,5 @@ class PictureWriter {
   std::exception_ptr m_failure;
   std::thread m_thread;  // last: it uses all of the above
 };
-
-/// Name of a frame's picture in its folder.
-std::string pictureName(int frame);
 
 }  // namespace rubble::demo

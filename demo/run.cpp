@@ -1,63 +1,65 @@
 #include "demo/run.h"
 
+#include <memory>
 #include <utility>
 
 #include "demo/console.h"
 #include "demo/frame.h"
 #include "demo/input_error.h"
 #include "demo/movie.h"
+#include "demo/output_file.h"
+#include "demo/picture_list.h"
 #include "demo/picture_writer.h"
 #include "demo/progress.h"
 #include "demo/summary.h"
 #include "demo/window/egl_context.h"
+#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
 
-// What only a run with pictures has. Members die in reverse order, so the context outlives all that was made
-// in it.
-struct Drawing {
-  Drawing(const World& world, const RunOptions& options)
-      : stage(world, world.scene()), framebuffer(options.width, options.height) {}
-
-  Stage stage;
+// The context of a run with pictures, and what they are drawn into. Made before the long work: a machine that
+// cannot draw says so at once.
+struct Canvas {
+  explicit Canvas(const RunOptions& options) : framebuffer(options.width, options.height) {}
+  EglContext context;  // outlives what is made in it
   Framebuffer framebuffer;
-  std::optional<PictureWriter> pictures;
 };
 
-std::optional<EglContext> makeContext(const Scene& scene, const RunOptions& options) {
-  if (!options.render) return std::nullopt;
+std::unique_ptr<Canvas> makeCanvas(const RunOptions& options) {
+  if (!options.render) return nullptr;
   try {
-    return std::make_optional<EglContext>();
+    return std::make_unique<Canvas>(options);
   } catch (const Error& error) {
-    throw InputError(scene.file, "OpenGL", std::string(error.what()) + "; --no-render does without");
+    throw MachineError("OpenGL: " + std::string(error.what()) + "; --no-render does without");
   }
+}
+
+// Whatever stops it here is the machine's: the context is too poor, or its shaders are not installed.
+std::unique_ptr<Stage> makeStage(const World& world) {
+  try {
+    return std::make_unique<Stage>(world, world.scene());
+  } catch (const Error& error) {
+    throw MachineError(error.what());
+  }
+}
+
+std::string movieName(const Scene& scene) {
+  return scene.name + ".mp4";
 }
 
 // Refuses what could not be written later, before the long work begins.
-void checkOutputs(const RunOptions& options) {
-  if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
-    throw InputError("--out", options.out.string(), "is a file, must be a folder");
-  }
-  for (const auto& [name, file] :
+void checkOutputs(const Scene& scene, const RunOptions& options) {
+  checkFolder("--out", options.out);
+  for (const auto& [option, file] :
        {std::pair("--stats", options.stats), std::pair("--events", options.events)}) {
-    const std::filesystem::path folder = file.parent_path();
-    if (!folder.empty() && folder != options.out && !std::filesystem::is_directory(folder)) {
-      throw InputError(name, file.string(), "cannot be written, must be in an existing folder");
-    }
+    if (file.empty()) continue;
+    checkFile(option, file, options.out);
+    if (sameFile(file, scene.file))
+      throw InputError(option, file.string(), "is the scene, must be another file");
   }
-}
-
-void prepareFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError("--out", folder.string(), error.message() + ", must be a folder that can be written");
-  // Pictures of an earlier run would end up in this one's movie.
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = file.path().filename().string();
-    if (name.starts_with("frame_") && name.ends_with(".png")) std::filesystem::remove(file.path(), error);
-  }
+  if (!options.events.empty() && sameFile(options.stats, options.events))
+    throw InputError("--events", options.events.string(), "is the file of --stats, must be another file");
 }
 
 RunOptions withDefaults(const Scene& scene, RunOptions options) {
@@ -75,13 +77,15 @@ void runFrames(FrameParts& parts, const Scene& scene) {
   }
 }
 
-void finishPictures(PictureWriter& pictures, const Scene& scene, const RunOptions& options,
+void finishPictures(PictureWriter& pictures, PictureList& list, const Scene& scene, const RunOptions& options,
                     std::ostream& report) {
   pictures.finish();
   report << "pictures: " << (options.out / pictureName(0)).string() << " to " << pictureName(scene.frames - 1)
          << '\n';
-  if (const auto movie = writeMovie(options.out, scene.name, scene.frames, scene.fps)) {
-    report << "movie: " << movie->string() << '\n';
+  if (writeMovie(options.out, movieName(scene), scene.frames, scene.fps, list)) {
+    report << "movie: " << (options.out / movieName(scene)).string() << '\n';
+  } else {
+    report << "no movie: ffmpeg is not installed\n";
   }
 }
 
@@ -89,31 +93,36 @@ void finishPictures(PictureWriter& pictures, const Scene& scene, const RunOption
 
 Summary runScene(const Scene& scene, const RunOptions& given, std::ostream& report) {
   const RunOptions options = withDefaults(scene, given);
-  checkOutputs(options);
-  World world(scene, cookWithProgress(scene), consoleLog());
-  const std::optional<EglContext> context = makeContext(scene, options);
+  checkOutputs(scene, options);
+  std::optional<PictureList> list;
+  if (options.render) list.emplace(options.out, movieName(scene)).requireFree(scene.frames);
+  const std::unique_ptr<Canvas> canvas = makeCanvas(options);
   const std::unique_ptr<DustGrid> dust =
-      makeDust(scene, context ? currentRenderer() : Renderer3D::None, options.threads);
-  std::optional<Drawing> drawing;
-  if (context) drawing.emplace(world, options);
+      makeDust(scene, canvas ? currentRenderer() : Renderer3D::None, options.threads);
+  World world(scene, cookWithProgress(scene), consoleLog());
+  const std::unique_ptr<Stage> stage = canvas ? makeStage(world) : nullptr;
 
-  prepareFolder(options.out);
+  makeFolder(options.out);
   Recorder recorder(world, options.stats, options.events);
   FrameParts parts{
       .world = &world, .recorder = &recorder, .dust = dust.get(), .camera = sceneCamera(scene.camera)};
-  if (drawing) {
-    drawing->pictures.emplace(options.out);
-    drawing->stage.showDust(dust.get(), scene.dust ? scene.dust->opacity : 0);
-    parts.stage = &drawing->stage;
-    parts.framebuffer = &drawing->framebuffer;
-    parts.pictures = &*drawing->pictures;
+  std::optional<PictureWriter> pictures;
+  if (canvas) {
+    list->startAnew();
+    pictures.emplace(options.out, &*list);
+    stage->showDust(dust.get(), scene.dust ? scene.dust->opacity : 0);
+    parts.stage = stage.get();
+    parts.framebuffer = &canvas->framebuffer;
+    parts.pictures = &*pictures;
   }
   runFrames(parts, scene);
 
-  printSummary(report, recorder.summary());
+  Summary summary = recorder.summary();
+  if (canvas) summary.drawnBy = canvas->context.renderer();
+  printSummary(report, summary);
   report << "statistics: " << options.stats.string() << '\n';
-  if (drawing) finishPictures(*drawing->pictures, scene, options, report);
-  return recorder.summary();
+  if (canvas) finishPictures(*pictures, *list, scene, options, report);
+  return summary;
 }
 
 }  // namespace rubble::demo

@@ -20,7 +20,8 @@ struct RunOptions {
 };
 
 /// Runs the scene and tells on `report` what happened. Throws InputError before anything is written,
-/// RunStopped later.
+/// RunStopped later, and MachineError when something is missing (before anything is written) or cannot be
+/// written; the files of results then end with the last whole frame, and there is no half picture or movie.
 Summary runScene(const Scene& scene, const RunOptions& options, std::ostream& report);
 
 }  // namespace rubble::demo

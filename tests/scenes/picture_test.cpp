@@ -10,9 +10,12 @@
 #include <sstream>
 
 #include "demo/dust_setup.h"
+#include "demo/input_error.h"
 #include "demo/run.h"
 #include "demo/stage.h"
 #include "gl/context.h"
+#include "rubble/machine_error.h"
+#include "scenes/full_disk.h"
 #include "scenes/scene_file.h"
 
 namespace rubble::test {
@@ -76,6 +79,39 @@ TEST_F(Pictures, DoNotTouchTheSimulation) {
 TEST_F(Pictures, DustOnGlDoesNotTouchTheElements) {
   const std::string cpu = run(true, {{"dust.backend", "cpu"}});
   EXPECT_EQ(cpu, run(true, {{"dust.backend", "gl"}}));
+}
+
+TEST_F(Pictures, ReplaceThoseOfTheRunBeforeAndNoOthers) {
+  run(true);
+  m_folder.write("out/frame_beach_holiday.png", "mine");
+  m_folder.write("out/frame_0007.png", "mine");
+  run(true, {{"frames", "2"}});
+  for (const char* name : {"frame_0001.png", "frame_beach_holiday.png", "frame_0007.png"})
+    EXPECT_TRUE(std::filesystem::exists(m_folder.path() / "out" / name)) << name;
+  for (const char* name : {"frame_0002.png", "frame_0004.png"})
+    EXPECT_FALSE(std::filesystem::exists(m_folder.path() / "out" / name)) << name;
+  EXPECT_THROW(run(true, {{"frames", "8"}}), demo::InputError);
+  EXPECT_EQ(std::filesystem::file_size(m_folder.path() / "out/frame_0007.png"), 4u);
+}
+
+TEST_F(Pictures, AFullDiskLeavesWholeFilesOnly) {
+  // Room for statistics and a picture or two.
+  const SmallDisk disk(m_folder.path() / "out", "32k");
+  if (!disk.isThere()) GTEST_SKIP() << "a small disk can be made by root only: NOT TESTED";
+  EXPECT_THROW(run(true), MachineError);
+  std::ifstream stats(m_folder.path() / "out/stats.jsonl");
+  for (std::string line; std::getline(stats, line);) {
+    EXPECT_FALSE(stats.eof()) << "the last line has no end";
+    EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  }
+  for (const auto& file : std::filesystem::directory_iterator(m_folder.path() / "out")) {
+    EXPECT_NE(file.path().extension(), ".part") << file.path();
+    int width = 0, height = 0;
+    if (file.path().extension() == ".png") {
+      EXPECT_FALSE(readPng(file.path(), width, height).empty());
+      EXPECT_EQ(width, 160);
+    }
+  }
 }
 
 // The scene `wall` with its dust on both back ends. The mechanics do not depend on the dust, so one world

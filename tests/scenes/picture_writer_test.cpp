@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rubble/error.h"
+#include "rubble/machine_error.h"
+#include "scenes/full_disk.h"
 #include "scenes/scene_file.h"
 
 namespace rubble::test {
@@ -34,6 +35,28 @@ TEST(PictureWriter, TellsWhatFailed) {
   demo::PictureWriter writer(folder.path() / "none");
   writer.save(0, grey(1));
   EXPECT_THROW(writer.finish(), Error);
+}
+
+TEST(PictureWriter, AFullDiskLeavesNoHalfPicture) {
+  const TestFolder folder;
+  const FileSizeLimit limit(50);  // [bytes]; the smallest picture takes more
+  demo::PictureWriter writer(folder.path());
+  writer.save(0, grey(1));
+  EXPECT_THROW(writer.finish(), MachineError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(PictureWriter, ListsWhatItWrites) {
+  const TestFolder folder;
+  {
+    demo::PictureList list(folder.path(), "small.mp4");
+    list.startAnew();
+    demo::PictureWriter writer(folder.path(), &list);
+    writer.save(3, grey(1));
+    writer.finish();
+  }
+  demo::PictureList(folder.path(), "small.mp4").startAnew();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "frame_0003.png"));
 }
 
 TEST(PictureWriter, NamesSortByFrame) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "demo/picture_list.h"
 #include "demo/summary.h"
 #include "scenes/scene_file.h"
 
@@ -142,13 +143,18 @@ TEST_F(Run, SameSeedSameHashesOnAnyNumberOfThreads) {
   EXPECT_NE(first.back(), hashes(run({{"impactors.0.velocity", "[0,0,11]"}})).back());
 }
 
-TEST_F(Run, ASecondRunLeavesNoPicturesOfTheFirst) {
+TEST_F(Run, WithoutPicturesItRemovesNone) {
   std::filesystem::create_directories(m_folder.path() / "out");
-  m_folder.write("out/frame_0007.png", "old");
-  m_folder.write("out/notes.txt", "mine");
+  {
+    demo::PictureList list(m_folder.path() / "out", "small.mp4");
+    list.startAnew();
+    list.add("frame_0003.png");
+  }
+  const std::vector<std::string> files = {"out/frame_0003.png", "out/frame_0001.png",
+                                          "out/frame_beach_holiday.png", "out/small.mp4", "out/notes.txt"};
+  for (const std::string& file : files) m_folder.write(file, "mine");
   run();
-  EXPECT_FALSE(std::filesystem::exists(m_folder.path() / "out/frame_0007.png"));
-  EXPECT_TRUE(std::filesystem::exists(m_folder.path() / "out/notes.txt"));
+  for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(m_folder.path() / file)) << file;
 }
 
 }  // namespace
