@@ -14,11 +14,16 @@ namespace {
 constexpr int kLargestPicture = 8192;  // [pixels]
 constexpr int kMostThreads = 256;
 
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 the machine failed (disk, memory, OpenGL, ffmpeg); 2 bad input, nothing was "
+    "written;\n"
+    "3 the run was stopped because its numbers can no longer be trusted. Errors are one line on stderr.";
+
 // What CLI11 fills in before it is checked.
 struct Raw {
   std::string size = "1280x720";
   std::vector<std::string> sets, sweeps;
-  std::string frames, seed;
+  std::optional<std::string> frames, seed;
   bool noRender = false;
 };
 
@@ -38,6 +43,15 @@ void parseSize(const std::string& text, int& width, int& height) {
   }
 }
 
+// An empty path means "the default" further on, so it may not be given.
+void addPath(CLI::App& app, const std::string& option, std::filesystem::path& path,
+             const std::string& meaning) {
+  app.add_option(option, path, meaning)->check([option](const std::string& text) {
+    if (text.empty()) throw InputError(option, "", "is empty, must be a path");
+    return std::string();
+  });
+}
+
 void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
   app.add_option("SCENE", line.scene, "name in demo/scenes, or path of a JSON file")->required();
   app.add_option("--set", raw.sets, "key.path=value: change the scene; may be repeated")
@@ -50,9 +64,9 @@ void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
 void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* run = app.add_subcommand("run", "simulate a scene, write pictures and statistics");
   addSceneOptions(*run, line, raw);
-  run->add_option("--out", line.run.out, "folder of the results, default out/SCENE");
-  run->add_option("--stats", line.run.stats, "one JSON object a frame, default OUT/stats.jsonl");
-  run->add_option("--events", line.run.events, "one JSON object an event");
+  addPath(*run, "--out", line.run.out, "folder of the results, default out/SCENE");
+  addPath(*run, "--stats", line.run.stats, "one JSON object a frame, default OUT/stats.jsonl");
+  addPath(*run, "--events", line.run.events, "one JSON object an event");
   run->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures, default 1280x720");
   run->add_flag("--no-render", raw.noRender, "no pictures and no OpenGL");
 
@@ -65,13 +79,13 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
 
   CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown and CSV");
   addSceneOptions(*report, line, raw);
-  report->add_option("--out", line.report.folder, "folder of the CSV, default out/report");
+  addPath(*report, "--out", line.report.folder, "folder of the CSV, default out/report");
   report
       ->add_option("--sweep", raw.sweeps,
                    "key.path=value;value...: runs with each; may be repeated. Default: precision and substep")
       ->allow_extra_args(false);
-  report->add_option("--write", line.report.write,
-                     "Markdown file: writes the table between the markers of this very report");
+  addPath(*report, "--write", line.report.write,
+          "Markdown file: writes the table between the markers of this very report");
 }
 
 CommandLine::Command command(const CLI::App& app) {
@@ -90,6 +104,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
   CLI::App app("Rubble: destruction for Bullet", "rubble");
   app.set_version_flag("--version", RUBBLE_VERSION);
   app.require_subcommand(1);
+  app.footer(kExitCodes);
   addCommands(app, line, raw);
   try {
     app.parse(argc, argv);
@@ -100,19 +115,20 @@ CommandLine parseCommandLine(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError("command line", "", std::string(error.what()) + ", see rubble --help");
   }
+  if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   line.command = command(app);
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
-  if (!raw.frames.empty()) line.overrides.push_back({"frames", raw.frames, "--frames"});
-  if (!raw.seed.empty()) line.overrides.push_back({"seed", raw.seed, "--seed"});
   for (const std::string& sweep : raw.sweeps) line.report.sweeps.push_back(parseSweep(sweep));
   line.report.scene = line.scene;
+  if (raw.frames) line.overrides.push_back({"frames", *raw.frames, "--frames"});
+  if (raw.seed) line.overrides.push_back({"seed", *raw.seed, "--seed"});
   line.report.overrides = line.overrides;
   line.run.render = !raw.noRender;
   parseSize(raw.size, line.run.width, line.run.height);
   line.view.width = line.run.width;
   line.view.height = line.run.height;
   line.view.threads = line.run.threads;
-  line.view.closeAtEnd = !raw.frames.empty();
+  line.view.closeAtEnd = raw.frames.has_value();
   return line;
 }
 

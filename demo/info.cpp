@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <iomanip>
+#include <sstream>
 
 #include "demo/console.h"
 #include "demo/dust_setup.h"
 #include "demo/input_error.h"
+#include "demo/window/egl_context.h"
 #include "demo/world.h"
 
 namespace rubble::demo {
@@ -31,11 +33,28 @@ void describe(const Asset& asset, std::ostream& out) {
   row(out, "cell meshes") << asset.triangles.size() << " triangles\n";
 }
 
+bool needsGl(const Scene& scene) {
+  return scene.dust && scene.dust->backend == DustBackend::Gl;
+}
+
+std::string rendererName() {
+  try {
+    return EglContext().renderer();
+  } catch (const Error& error) {
+    return std::string("nothing here: ") + error.what();
+  }
+}
+
 void describeNeeds(const Scene& scene, std::ostream& out) {
-  row(out, "OpenGL") << "only for pictures; none with --no-render\n";
+  row(out, "OpenGL") << (needsGl(scene) ? "needed: dust.backend is gl\n"
+                                        : "only for pictures; none with --no-render\n");
+  row(out, "drawn by") << rendererName() << '\n';
   if (scene.dust) {
+    // Measured on the CPU whatever the scene asks for; the arrays are the same on a graphics card.
+    Scene onCpu = scene;
+    onCpu.dust->backend = DustBackend::Cpu;
     const double before = memoryInUse();
-    const auto grid = makeDust(scene, Renderer3D::None, 1);
+    const auto grid = makeDust(onCpu, Renderer3D::None, 1);
     row(out, "dust") << scene.dust->resolution << "^3 cells, " << memoryInUse() - before
                      << " MB on the CPU\n";
   } else {
@@ -50,7 +69,8 @@ void describeNeeds(const Scene& scene, std::ostream& out) {
 
 }  // namespace
 
-void describeScene(const Scene& scene, std::ostream& out) {
+void describeScene(const Scene& scene, std::ostream& stream) {
+  std::ostringstream out;  // told when all is known: an error leaves no half table
   const double before = memoryInUse();
   const Assets assets = cookWithProgress(scene);
   const double cooked = memoryInUse();
@@ -76,6 +96,7 @@ void describeScene(const Scene& scene, std::ostream& out) {
   }
   row(out, "memory") << "assets " << cooked - before << " MB, world " << built - cooked << " MB\n";
   describeNeeds(scene, out);
+  stream << out.str();
 }
 
 bool isAssetFile(const std::string& nameOrPath) {
@@ -83,6 +104,13 @@ bool isAssetFile(const std::string& nameOrPath) {
 }
 
 void describeAsset(const std::filesystem::path& file, std::ostream& out) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status))
+    throw InputError(file.string(), "", "there is no such file, must be a .rubble-asset");
+  // A pipe would be waited for without end.
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(file.string(), "", "is no file but a folder, pipe or device, must be a .rubble-asset");
   try {
     const Asset asset = load(file);
     out << file.string() << '\n';

@@ -1,8 +1,10 @@
 // The program from outside: exit codes, what it says, what it leaves behind.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "scenes/child.h"
 #include "scenes/scene_file.h"
@@ -15,6 +17,15 @@ class Program : public testing::Test {
   ChildResult run(const std::string& arguments) {
     return runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments,
                     m_folder.path());
+  }
+  // An error is one line, after what progress has said; nothing else is printed.
+  void expectError(const ChildResult& result, int exitCode, const std::string& words) {
+    EXPECT_EQ(result.exitCode, exitCode) << result.error;
+    const auto start = result.error.rfind("rubble: error: ");
+    ASSERT_NE(start, std::string::npos) << result.error;
+    EXPECT_EQ(lines(result.error.substr(start)), 1) << result.error;
+    EXPECT_NE(result.error.find(words, start), std::string::npos) << result.error;
+    EXPECT_EQ(result.out, "");
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(m_folder.path() / name); }
   static std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
@@ -48,13 +59,35 @@ TEST_F(Program, BadInputIsOneLineExitCode2AndNothingWritten) {
 
 TEST_F(Program, EveryBadArgumentIsExitCode2AndOneLine) {
   m_folder.write("small.json", kSmallWall);
-  for (const char* arguments :
-       {"", "fly wall", "run", "run none.json", "run small.json --frames 0", "run small.json --frames many",
-        "run small.json --size 12", "run small.json --size 0x0", "run small.json --size 1280x720x3",
-        "run small.json --threads 0", "run small.json --set gravityy=1", "run small.json --set gravity",
-        "run small.json --wat", "run small.json --seed -1", "info none.rubble-asset", "view none",
-        "run small.json --no-render --set dust.backend=gl", "run small.json --no-render --out small.json",
-        "run small.json --no-render --stats none/stats.jsonl"}) {
+  for (const char* arguments : {"",
+                                "fly wall",
+                                "run",
+                                "run none.json",
+                                "run small.json --frames 0",
+                                "run small.json --frames many",
+                                "run small.json --size 12",
+                                "run small.json --size 0x0",
+                                "run small.json --size 1280x720x3",
+                                "run small.json --threads 0",
+                                "run small.json --set gravityy=1",
+                                "run small.json --set gravity",
+                                "run small.json --wat",
+                                "run small.json --seed -1",
+                                "info none.rubble-asset",
+                                "view none",
+                                "run small.json --no-render --set dust.backend=gl",
+                                "run small.json --no-render --out small.json",
+                                "run small.json --no-render --stats none/stats.jsonl",
+                                "run small.json --no-render --out ''",
+                                "run small.json --no-render --out small.json/below",
+                                "run small.json --no-render --stats ''",
+                                "run small.json --no-render --stats small.json",
+                                "run small.json --no-render --stats .",
+                                "run small.json --no-render --stats a --events ./a",
+                                "run small.json --no-render --frames ''",
+                                "run small.json --no-render --seed ''",
+                                "run ''",
+                                "report small.json --out small.json"}) {
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments;
     const auto errors = result.error.rfind("rubble: error: ");
@@ -92,6 +125,115 @@ TEST_F(Program, ReportComparesPrecisionsAndSubsteps) {
   int rows = 0;
   for (std::string line; std::getline(table, line);) ++rows;
   EXPECT_EQ(rows, 7);  // a head, and three substeps in each of two precisions
+}
+
+// Neither is waited for: a pipe without a writer would be waited for without end.
+TEST_F(Program, FoldersAndPipesAreNoScenesAndNoAssets) {
+  for (const char* name : {"a.json", "a.rubble-asset"}) {
+    std::filesystem::create_directory(m_folder.path() / name);
+    expectError(run(std::string("info ") + name), 2, name);
+    std::filesystem::remove(m_folder.path() / name);
+    ASSERT_EQ(mkfifo((m_folder.path() / name).c_str(), 0600), 0);
+    expectError(run(std::string("info ") + name), 2, name);
+  }
+}
+
+TEST_F(Program, AFullDiskIsExitCode1AndOneLine) {
+  m_folder.write("small.json", kSmallWall);
+  expectError(run("run small.json --no-render --frames 1 --stats /dev/full"), 1,
+              "/dev/full: cannot be written: No space");
+  expectError(run("run small.json --no-render --frames 5 --events /dev/full"), 1,
+              "/dev/full: cannot be written: No space");
+}
+
+// 4 blocks of 512 bytes hold two lines of statistics, not five.
+TEST_F(Program, StatisticsOfAFullDiskEndWithAWholeFrame) {
+  m_folder.write("small.json", kSmallWall);
+  const ChildResult result =
+      runChild("cd " + m_folder.path().string() +
+                   " && trap '' XFSZ && ulimit -f 4 && " RUBBLE_PROGRAM " run small.json --no-render",
+               m_folder.path());
+  expectError(result, 1, "stats.jsonl: cannot be written");
+  std::ifstream stats(m_folder.path() / "out/small/stats.jsonl");
+  int frames = 0;
+  for (std::string line; std::getline(stats, line); ++frames) {
+    EXPECT_FALSE(stats.eof()) << "the last line has no end";
+    EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  }
+  EXPECT_GT(frames, 0);
+  EXPECT_LT(frames, 5);
+}
+
+// Nobody can make a folder in /proc.
+TEST_F(Program, AFolderThatCannotBeMadeIsExitCode1) {
+  m_folder.write("small.json", kSmallWall);
+  expectError(run("run small.json --no-render --out /proc/rubble"), 1, "/proc/rubble: cannot be written");
+  expectError(run("report small.json --frames 1 --out /proc/rubble"), 1, "cannot be written");
+}
+
+TEST_F(Program, StandardOutputOnAFullDiskIsExitCode1) {
+  m_folder.write("small.json", kSmallWall);
+  const ChildResult result = runChild(
+      "(" RUBBLE_PROGRAM " info " + m_folder.path().string() + "/small.json >/dev/full)", m_folder.path());
+  expectError(result, 1, "standard output");
+}
+
+TEST_F(Program, MemoryThatIsNotThereIsExitCode1) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself needs more than the limit";
+#endif
+  m_folder.write("small.json", kSmallWall);
+  // [KiB]; a grid of 256^3 cells needs more than that for its velocities alone.
+  const ChildResult result = runChild("ulimit -v 250000; " RUBBLE_PROGRAM " run " + m_folder.path().string() +
+                                          "/small.json --no-render --threads 1 --set dust.resolution=256",
+                                      m_folder.path());
+  expectError(result, 1, "out of memory");
+}
+
+// 1e6 kg on a square metre of soft wall: the run is stopped, the scene is not to blame.
+TEST_F(Program, ARunThatGoesWrongIsExitCode3) {
+  m_folder.write("small.json", kSmallWall);
+  expectError(run("run small.json --no-render --frames 20 --set objects.0.size=[300,300,30] "
+                  "--set objects.0.position=[0,150,0]"),
+              3, "");
+}
+
+// Said before the long work, which would announce itself.
+TEST_F(Program, WithoutEglPicturesAreRefusedAtOnce) {
+  m_folder.write("small.json", kSmallWall);
+  const std::string preload = "LD_PRELOAD=" WITHOUT_EGL " " RUBBLE_PROGRAM;
+  const std::string arguments = " run small.json --frames 1";
+  const auto start = [&](const std::string& command) {
+    return runChild("cd " + m_folder.path().string() + " && " + command, m_folder.path());
+  };
+  const ChildResult result = start(preload + arguments);
+  expectError(result, 1, "libEGL.so.1 cannot be loaded; --no-render does without");
+  EXPECT_EQ(lines(result.error), 1) << result.error;
+  EXPECT_FALSE(exists("out"));
+  EXPECT_EQ(start(preload + arguments + " --no-render").exitCode, 0);
+  EXPECT_EQ(start(preload + " info small.json").exitCode, 0);
+}
+
+TEST_F(Program, ShadersThatAreNotInstalledAreExitCode1) {
+  m_folder.write("small.json", kSmallWall);
+  const ChildResult result = runChild(
+      "cd " + m_folder.path().string() + " && RUBBLE_DATA=none " RUBBLE_PROGRAM " run small.json --frames 1",
+      m_folder.path());
+  expectError(result, 1, "");
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(Program, InfoOfASceneWithDustOnGlIsWhole) {
+  m_folder.write("small.json", kSmallWall);
+  const ChildResult result = run("info small.json --set dust.backend=gl");
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  for (const char* text : {"16^3 cells", "needed: dust.backend is gl", "debris"})
+    EXPECT_NE(result.out.find(text), std::string::npos) << text << " in\n" << result.out;
+}
+
+TEST_F(Program, HelpListsTheExitCodes) {
+  for (const char* arguments : {"--help", "run --help"})
+    EXPECT_NE(run(arguments).out.find("Exit codes: 0 done"), std::string::npos) << arguments;
 }
 
 TEST_F(Program, HelpAndVersionAreNoErrors) {
