@@ -12,11 +12,11 @@ LogFunction consoleLog() {
   };
 }
 
-Assets cookWithProgress(const Scene& scene) {
+Assets cookWithProgress(const Scene& scene, const LogFunction& log) {
   Progress progress(scene.name);
   return cookObjects(
       scene, [&](double share, const char* stage) { progress.show(share, std::string("cooking, ") + stage); },
-      consoleLog());
+      log);
 }
 
 }  // namespace rubble::demo

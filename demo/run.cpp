@@ -65,6 +65,7 @@ void checkOutputs(const Scene& scene, const RunOptions& options) {
 RunOptions withDefaults(const Scene& scene, RunOptions options) {
   if (options.out.empty()) options.out = std::filesystem::path("out") / scene.name;
   if (options.stats.empty()) options.stats = options.out / "stats.jsonl";
+  if (!options.log) options.log = consoleLog();
   return options;
 }
 
@@ -99,7 +100,7 @@ Summary runScene(const Scene& scene, const RunOptions& given, std::ostream& repo
   const std::unique_ptr<Canvas> canvas = makeCanvas(options);
   const std::unique_ptr<DustGrid> dust =
       makeDust(scene, canvas ? currentRenderer() : Renderer3D::None, options.threads);
-  World world(scene, cookWithProgress(scene), consoleLog());
+  World world(scene, cookWithProgress(scene, options.log), options.log);
   const std::unique_ptr<Stage> stage = canvas ? makeStage(world) : nullptr;
 
   makeFolder(options.out);

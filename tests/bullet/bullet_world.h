@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "rubble/cook.h"
 #include "rubble/destruction.h"
+#include "support/strict_cook.h"
 
 namespace rubble::test {
 
@@ -16,15 +16,17 @@ inline std::shared_ptr<const Asset> smallWall() {
     CookOptions options;
     options.elements = 256;
     options.anchorDirection = Eigen::Vector3d(0, -1, 0);
-    return std::make_shared<const Asset>(cook(boxMesh({0.5, 0.5, 0.08}, {0, 0.25, 0}), options));
+    return std::make_shared<const Asset>(cookStrictly(boxMesh({0.5, 0.5, 0.08}, {0, 0.25, 0}), options));
   }();
   return asset;
 }
 
 struct BulletWorld {
-  explicit BulletWorld(const DestructionDef& def = {}) {
+  /// A warning fails the test unless `def` brings a log of its own.
+  explicit BulletWorld(DestructionDef def = {}) {
     world.setGravity({0, btScalar(-9.81), 0});
     ground = add(0, groundShape, {0, 0, 0});
+    if (!def.log) def.log = strictLog();
     destruction = std::make_unique<Destruction>(world, def);
   }
   ~BulletWorld() {

@@ -108,6 +108,20 @@ TEST(Coupling, DebrisPushTheElementsTheyHit) {
   EXPECT_LT(w.destruction->ledger().energyError, 0.02);
 }
 
+TEST(Coupling, AShapeThatCannotTouchIsNamedOnce) {
+  test::ExpectedWarnings warnings;
+  DestructionDef definition;
+  definition.log = warnings.log();
+  btTriangleMesh triangles;
+  triangles.addTriangle({-1, 0, -1}, {1, 0, -1}, {0, 0, 1});
+  btBvhTriangleMeshShape floor(&triangles, true);
+  test::BulletWorld w(definition);
+  w.addWall(material("concrete_soft"));
+  for (int i = 0; i < 2; ++i) w.add(0, floor, {0, btScalar(0.01), 0});
+  for (int tick = 0; tick < 2; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  EXPECT_EQ(warnings.take("shape BVHTRIANGLEMESH does not touch destructible bodies"), 1);
+}
+
 TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {
   auto w = std::make_unique<BulletWorld>();
   w->addWall(material("concrete_soft"));

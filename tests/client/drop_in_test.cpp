@@ -7,6 +7,7 @@
 #include "scenes/child.h"
 #include "scenes/scene_file.h"
 #include "support/folders.h"
+#include "support/strict_cook.h"
 
 namespace rubble::test {
 namespace {
@@ -15,7 +16,7 @@ std::string cookedBlock(const TestFolder& folder) {
   CookOptions options;
   options.elements = 128;
   const std::filesystem::path file = folder.path() / "block.rubble-asset";
-  save(cook(boxMesh({0.4, 0.4, 0.4}), options), file);
+  save(cookStrictly(boxMesh({0.4, 0.4, 0.4}), options), file);
   return file.string();
 }
 

@@ -3,6 +3,7 @@
 #include "edem/prestress.h"
 #include "physics/bodies.h"
 #include "rubble/cook.h"
+#include "support/strict_cook.h"
 
 namespace rubble::test {
 namespace {
@@ -12,7 +13,7 @@ edem::BodyDef packedColumn(bool anchored) {
     CookOptions options;
     options.elements = 120;
     options.anchorDirection = -Eigen::Vector3d::UnitY();
-    return std::make_shared<const Asset>(cook(boxMesh({0.5, 1.5, 0.5}), options));
+    return std::make_shared<const Asset>(cookStrictly(boxMesh({0.5, 1.5, 0.5}), options));
   }();
   edem::BodyDef def;
   def.asset = asset;

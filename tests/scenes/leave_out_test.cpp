@@ -8,6 +8,7 @@
 #include "demo/dust_setup.h"
 #include "demo/run.h"
 #include "scenes/scene_file.h"
+#include "support/strict_log.h"
 
 namespace rubble::test {
 namespace {
@@ -32,7 +33,8 @@ demo::Scene smallWall(const TestFolder& folder, const std::vector<demo::Override
 TEST(LeaveOut, ARunWithoutPicturesLoadsNoGlLibrary) {
   const TestFolder folder;
   std::ostringstream report;
-  demo::runScene(smallWall(folder), {.out = folder.path() / "out", .render = false}, report);
+  demo::runScene(smallWall(folder), {.out = folder.path() / "out", .render = false, .log = strictLog()},
+                 report);
   const std::string maps = loadedLibraries();
   for (const char* library :
        {"libGL.so", "libGLX", "libOpenGL", "libEGL", "libgallium", "libLLVM", "_dri.so"})
@@ -46,7 +48,7 @@ TEST(LeaveOut, ASceneWithoutDustHasNoGridAndNoThread) {
   const std::string threads = statusLine("Threads:");
   const auto grid = demo::makeDust(without, demo::Renderer3D::None, 4);
   EXPECT_EQ(grid, nullptr);
-  demo::World world(without, demo::cookObjects(without));
+  demo::World world(without, demo::cookObjects(without, {}, strictLog()), strictLog());
   world.step();
   EXPECT_EQ(statusLine("Threads:"), threads);
   EXPECT_NE(demo::makeDust(smallWall(folder), demo::Renderer3D::None, 4), nullptr);
@@ -56,14 +58,14 @@ TEST(LeaveOut, ASceneWithoutDebrisAllocatesNone) {
   const TestFolder folder;
   const auto memoryOf = [&](const demo::Scene& scene, const demo::Assets& assets) {
     const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
-    const demo::World world(scene, assets);
+    const demo::World world(scene, assets, strictLog());
     EXPECT_TRUE(world.destruction().debris().empty());
     return mallinfo2().uordblks + mallinfo2().hblkhd - before;
   };
   // A budget of a million pieces of over 64 bytes is more than the rest of the small wall's world by far.
   const demo::Scene with = smallWall(folder, {{"debris.budget", "1000000"}});
   const demo::Scene without = smallWall(folder, {{"debris", "null"}});
-  const demo::Assets assets = demo::cookObjects(with);
+  const demo::Assets assets = demo::cookObjects(with, {}, strictLog());
   if (memoryOf(with, assets) == 0) GTEST_SKIP() << "this allocator does not count";
   EXPECT_LT(memoryOf(without, assets), 64u * 1000000u / 2);
 }

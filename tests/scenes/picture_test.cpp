@@ -17,6 +17,7 @@
 #include "rubble/machine_error.h"
 #include "scenes/full_disk.h"
 #include "scenes/scene_file.h"
+#include "support/strict_log.h"
 
 namespace rubble::test {
 namespace {
@@ -44,8 +45,10 @@ class Pictures : public testing::Test {
   std::string run(bool render, const std::vector<demo::Override>& overrides = {}) {
     const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), overrides);
     std::ostringstream report;
-    demo::runScene(scene, {.out = m_folder.path() / "out", .render = render, .width = 160, .height = 90},
-                   report);
+    demo::runScene(
+        scene,
+        {.out = m_folder.path() / "out", .render = render, .width = 160, .height = 90, .log = strictLog()},
+        report);
     std::ifstream stats(m_folder.path() / "out/stats.jsonl");
     std::string hashes;
     for (std::string line; std::getline(stats, line);) {
@@ -120,7 +123,8 @@ class DustOfTheWall : public test::GlTest {
  protected:
   void prepare() override {
     m_scene = demo::loadScene("wall", {{"dust.resolution", "32"}});
-    m_world = std::make_unique<demo::World>(m_scene, demo::cookObjects(m_scene));
+    m_world =
+        std::make_unique<demo::World>(m_scene, demo::cookObjects(m_scene, {}, strictLog()), strictLog());
     m_cpu = grid(demo::DustBackend::Cpu);
     m_gl = grid(demo::DustBackend::Gl);
     m_stage = std::make_unique<demo::Stage>(*m_world, m_scene);

@@ -15,8 +15,10 @@ namespace {
 class Program : public testing::Test {
  protected:
   ChildResult run(const std::string& arguments) {
-    return runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments,
-                    m_folder.path());
+    ChildResult result =
+        runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments, m_folder.path());
+    EXPECT_EQ(result.error.find("rubble: warning: "), std::string::npos) << arguments << '\n' << result.error;
+    return result;
   }
   // An error is one line, after what progress has said; nothing else is printed.
   void expectError(const ChildResult& result, int exitCode, const std::string& words) {

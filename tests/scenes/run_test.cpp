@@ -12,6 +12,7 @@
 #include "demo/picture_list.h"
 #include "demo/summary.h"
 #include "scenes/scene_file.h"
+#include "support/strict_log.h"
 
 namespace rubble::test {
 namespace {
@@ -28,7 +29,8 @@ class Run : public testing::Test {
                                {.out = m_folder.path() / "out",
                                 .events = m_folder.path() / "events.jsonl",
                                 .render = false,
-                                .threads = threads},
+                                .threads = threads,
+                                .log = strictLog()},
                                report);
     return readLines("out/stats.jsonl");
   }
@@ -88,7 +90,7 @@ TEST_F(Run, CountsAddUpToWhatWasCooked) {
                                             {"objects.0.material.crush_efficiency", "1e-6"}};
   const std::vector<Json> frames = run(weak);
   const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), weak);
-  const Asset& asset = *demo::cookObjects(scene).front();
+  const Asset& asset = *demo::cookObjects(scene, {}, strictLog()).front();
   for (const Json& frame : frames) {
     const Json &elements = frame["elements"], &springs = frame["springs"];
     EXPECT_EQ(elements["intact"].get<std::size_t>() + elements["crushed"].get<std::size_t>(),

@@ -14,6 +14,7 @@
 #include "demo/run.h"
 #include "demo/world.h"
 #include "scenes/scene_file.h"
+#include "support/strict_log.h"
 
 namespace rubble::test {
 
@@ -55,7 +56,8 @@ inline SceneRun runWall(const Overrides& overrides, int threads = 1, bool render
                                 .render = render,
                                 .width = 160,
                                 .height = 90,
-                                .threads = threads},
+                                .threads = threads,
+                                .log = strictLog()},
                                report);
   run.frames = readLines(folder.path() / "out/stats.jsonl");
   run.events = readLines(events);
@@ -95,7 +97,7 @@ class QuietWall {
  public:
   explicit QuietWall(const Overrides& overrides)
       : m_world(demo::loadScene("wall_quiet", overrides),
-                demo::cookObjects(demo::loadScene("wall_quiet", overrides))),
+                demo::cookObjects(demo::loadScene("wall_quiet", overrides), {}, strictLog()), strictLog()),
         m_body(*m_world.destruction().bodies().front()),
         m_places(places()) {
     const std::vector<double>& volumes = m_body.asset()->volumes;

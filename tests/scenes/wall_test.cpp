@@ -44,7 +44,7 @@ TEST(Wall, LedgersCloseInDouble) {
 TEST(Wall, BallGetsWhatTheElementsGive) {
   const demo::Scene scene = demo::loadScene(
       "wall", {{"fps", "240"}, {"debris", "null"}, {"dust", "null"}, {"precision", "double"}});
-  demo::World world(scene, demo::cookObjects(scene));
+  demo::World world(scene, demo::cookObjects(scene, {}, strictLog()), strictLog());
   const btRigidBody& ball = *world.impactors().front();
   const double mass = scene.impactors.front().mass;
   const auto momentum = [&] {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -19,7 +20,7 @@ class AssetFile : public testing::Test {
     m_file = m_folder / "box.asset";
     CookOptions options = optionsFor(20);
     options.anchorDirection = -Eigen::Vector3d::UnitY();
-    m_asset = cook(boxMesh({1, 1, 1}), options);
+    m_asset = cookStrictly(boxMesh({1, 1, 1}), options);
     save(m_asset, m_file);
     m_bytes = fileBytes(m_file);
   }
@@ -180,7 +181,7 @@ TEST_F(AssetFile, OfAnImpossibleAssetIsNeverWritten) {
 }
 
 TEST(Asset, MeasuresItself) {
-  const Asset asset = cook(boxMesh({1, 2, 4}, {10, 0, 0}), optionsFor(8));
+  const Asset asset = cookStrictly(boxMesh({1, 2, 4}, {10, 0, 0}), optionsFor(8));
   EXPECT_NEAR(asset.volume(), 8, 1e-12);
   EXPECT_NEAR(asset.spacing(), 1, 1e-12);
   EXPECT_NEAR(asset.diagonal(), std::sqrt(21.0), 1e-6);

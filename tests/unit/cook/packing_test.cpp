@@ -5,6 +5,7 @@
 
 #include "cook/grid_distance.h"
 #include "cook/triangle_tree.h"
+#include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -19,7 +20,7 @@ double deepestOverlap(const Asset& asset) {
 }
 
 TEST(Packing, OfTheWallIsExactAndInsideAndHardlyOverlaps) {
-  const Asset wall = cook(wallMesh(), wallOptions());
+  const Asset wall = cookStrictly(wallMesh(), wallOptions());
   ASSERT_EQ(wall.elementCount(), 2048u);
   EXPECT_EQ(wall.radius, 0.016);
   const Eigen::Vector3d half(0.5, 0.5, 0.04);
@@ -30,7 +31,7 @@ TEST(Packing, OfTheWallIsExactAndInsideAndHardlyOverlaps) {
 
 // The distance is exact at the end, so the spheres are inside to the tolerance of the last push.
 TEST(Packing, StaysInsideATorus) {
-  const Asset asset = cook(torus(1, 0.3, 64, 32), optionsFor(500));
+  const Asset asset = cookStrictly(torus(1, 0.3, 64, 32), optionsFor(500));
   for (const Eigen::Vector3d& p : asset.positions) {
     const double fromRing = std::hypot(std::hypot(p.x(), p.y()) - 1, p.z());
     EXPECT_LE(fromRing + asset.radius, 0.3 + 1e-3 * asset.radius);  // the mesh lies inside of the true torus
@@ -39,7 +40,7 @@ TEST(Packing, StaysInsideATorus) {
 }
 
 TEST(Packing, KeepsOutOfACavity) {
-  const Asset asset = cook(hollowCube(), optionsFor(300));
+  const Asset asset = cookStrictly(hollowCube(), optionsFor(300));
   for (const Eigen::Vector3d& p : asset.positions) {
     EXPECT_LE(p.cwiseAbs().maxCoeff(), 0.5 - 0.99 * asset.radius);
     const Eigen::Vector3d outside = (p.cwiseAbs() - Eigen::Vector3d::Constant(0.25)).cwiseMax(0.0);
@@ -50,31 +51,30 @@ TEST(Packing, KeepsOutOfACavity) {
 TEST(Packing, TakesTheRadiusFromTheFill) {
   CookOptions options = optionsFor(500);
   options.fill = 0.45;
-  const Asset asset = cook(boxMesh({1, 1, 1}), options);
+  const Asset asset = cookStrictly(boxMesh({1, 1, 1}), options);
   EXPECT_NEAR(500 * 4.0 / 3.0 * std::numbers::pi * std::pow(asset.radius, 3), 0.45, 1e-12);
 }
 
 // Two spheres in a unit cube: centres on the diagonal of the cube of edge 1 - 2 r are 2 r apart at r = 0.317,
 // so the radius for the default fill, 0.386, has to shrink.
 TEST(Packing, ShrinksAChosenRadiusThatDoesNotFit) {
-  bool isWarned = false;
-  const Asset asset = cook(boxMesh({1, 1, 1}), optionsFor(2), {}, [&](LogLevel level, const std::string&) {
-    isWarned = isWarned || level == LogLevel::Warning;
-  });
+  ExpectedWarnings warnings;
+  const Asset asset = cook(boxMesh({1, 1, 1}), optionsFor(2), {}, warnings.log());
   EXPECT_EQ(asset.elementCount(), 2u);
   EXPECT_LE(deepestOverlap(asset), 0.2);
-  EXPECT_TRUE(isWarned);
+  EXPECT_EQ(warnings.take("do not fit; radius"), 1);
 }
 
 TEST(Packing, FitsASingleLayerExactlyAsThickAsTheElements) {
   CookOptions options = optionsFor(30);
   options.radius = 0.05;
-  const Asset asset = cook(boxMesh({1, 1, 0.1}), options);
+  const Asset asset = cookStrictly(boxMesh({1, 1, 0.1}), options);
   for (const Eigen::Vector3d& p : asset.positions) EXPECT_NEAR(p.z(), 0, 1e-6);
 }
 
 TEST(Packing, FillsBothOfTwoShells) {
-  const Asset asset = cook(joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {3, 0, 0})), optionsFor(200));
+  const Asset asset =
+      cookStrictly(joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {3, 0, 0})), optionsFor(200));
   int left = 0;
   for (const Eigen::Vector3d& p : asset.positions) left += p.x() < 1.5 ? 1 : 0;
   EXPECT_NEAR(left, 100, 40);  // random, standard deviation 7

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -22,14 +23,14 @@ std::size_t componentCount(const Asset& asset) {
 }
 
 TEST(Springs, ConnectABox) {
-  EXPECT_EQ(componentCount(cook(wallMesh(), wallOptions())), 1u);
-  EXPECT_EQ(componentCount(cook(boxMesh({1, 1, 1}), optionsFor(200))), 1u);
+  EXPECT_EQ(componentCount(cookStrictly(wallMesh(), wallOptions())), 1u);
+  EXPECT_EQ(componentCount(cookStrictly(boxMesh({1, 1, 1}), optionsFor(200))), 1u);
 }
 
 TEST(Springs, LeaveTwoShellsApart) {
   // A millimetre between the boxes: many Delaunay edges cross it.
   const SurfaceMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1.001, 0, 0}));
-  const Asset asset = cook(mesh, optionsFor(300));
+  const Asset asset = cookStrictly(mesh, optionsFor(300));
   EXPECT_EQ(componentCount(asset), 2u);
   for (const AssetSpring& spring : asset.springs)
     EXPECT_EQ(asset.positions[spring.first].x() < 0.5005, asset.positions[spring.second].x() < 0.5005);
@@ -38,7 +39,7 @@ TEST(Springs, LeaveTwoShellsApart) {
 // Two elements above the foot by more than their cells reach down cannot share a face through the foot.
 TEST(Springs, DoNotCrossASlot) {
   const double gap = 0.01;
-  const Asset asset = cook(you(gap), optionsFor(600));
+  const Asset asset = cookStrictly(you(gap), optionsFor(600));
   ASSERT_GT(asset.spacing(), 5 * gap);
   const double high = 1 + asset.spacing();
   int legSprings = 0;
@@ -53,7 +54,7 @@ TEST(Springs, DoNotCrossASlot) {
 }
 
 TEST(Springs, AreSortedPairsWithTheAreaOfTheirFaceOnBothSides) {
-  const Asset asset = cook(boxMesh({1, 1, 1}), optionsFor(200));
+  const Asset asset = cookStrictly(boxMesh({1, 1, 1}), optionsFor(200));
   const double least = CookOptions{}.minFaceArea * asset.spacing() * asset.spacing();
   for (std::size_t s = 0; s < asset.springs.size(); ++s) {
     const AssetSpring& spring = asset.springs[s];
@@ -78,7 +79,7 @@ TEST(Springs, AreSortedPairsWithTheAreaOfTheirFaceOnBothSides) {
 
 // GEOMETRY of packed elements: 11 to 13 faces a cell before slivers go; a lattice of cubes would have 6.
 TEST(Springs, OfAPackedCubeAreAboutElevenAnElement) {
-  const Asset asset = cook(boxMesh({1, 1, 1}), optionsFor(1000));
+  const Asset asset = cookStrictly(boxMesh({1, 1, 1}), optionsFor(1000));
   const double each = 2.0 * double(asset.springs.size()) / 1000;
   EXPECT_GT(each, 9.5);
   EXPECT_LT(each, 13.5);
@@ -89,14 +90,14 @@ TEST(Springs, CarryTheWholeCrossSection) {
   CookOptions options = optionsFor(2);
   options.radius = 0.5;
   options.maxOverlap = 1e-6;
-  const Asset asset = cook(boxMesh({2, 1, 1}), options);
+  const Asset asset = cookStrictly(boxMesh({2, 1, 1}), options);
   ASSERT_EQ(asset.springs.size(), 1u);
   EXPECT_NEAR(asset.springs[0].area, 1.0, 1e-5);  // tilted by the jitter of 1e-6 r
   EXPECT_NEAR(asset.volumes[0], 1.0, 1e-5);       // off by the overlap left
 }
 
 TEST(Anchors, HoldTheBottomOfTheWall) {
-  const Asset wall = cook(wallMesh(), wallOptions());
+  const Asset wall = cookStrictly(wallMesh(), wallOptions());
   double area = 0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const AssetAnchor& anchor : wall.anchors) {
@@ -110,7 +111,7 @@ TEST(Anchors, HoldTheBottomOfTheWall) {
 }
 
 TEST(Anchors, AreOnlyWhereAsked) {
-  EXPECT_TRUE(cook(boxMesh({1, 1, 1}), optionsFor(20)).anchors.empty());
+  EXPECT_TRUE(cookStrictly(boxMesh({1, 1, 1}), optionsFor(20)).anchors.empty());
 }
 
 // The foot of the U looks down all along; its legs' tops are two squares of 1 x 0.5.
@@ -118,7 +119,7 @@ TEST(Anchors, TakeTheFurthestSurfaceOfAnyShape) {
   CookOptions options = optionsFor(100);
   options.anchorDirection = Eigen::Vector3d(0, 3, 0);
   double area = 0;
-  for (const AssetAnchor& anchor : cook(you(0.5), options).anchors) area += anchor.area;
+  for (const AssetAnchor& anchor : cookStrictly(you(0.5), options).anchors) area += anchor.area;
   EXPECT_NEAR(area, 1.0, 1e-12);
 }
 

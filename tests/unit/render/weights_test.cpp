@@ -6,6 +6,7 @@
 #include "unit/render/random.h"
 #ifdef RUBBLE_TEST_COOK
 #include "rubble/cook.h"
+#include "support/strict_cook.h"
 #endif
 
 namespace rubble::test {
@@ -55,7 +56,7 @@ TEST(Weights, CopiesOfASharedVertexCoincideInACookedBody) {
   // twelve).
   CookOptions options;
   options.elements = 400;
-  const Asset asset = cook(boxMesh({1, 1, 0.2}), options);
+  const Asset asset = cookStrictly(boxMesh({1, 1, 0.2}), options);
   const CellWeights weights(asset, CellJoining::Transitive);
   Random random(6);
   for (int trial = 0; trial < 5; ++trial) {
