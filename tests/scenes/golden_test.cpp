@@ -1,0 +1,68 @@
+// The scene `wall` to the last bit: the same hashes in every build (optimised or not, sanitized or not) and
+// on every machine. A change that is meant to change the physics changes them; this prints the lines to put
+// into the tables:
+//
+//     build/release/tests/scenes/golden_test | grep now
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <ios>
+#include <span>
+
+#include "demo/world.h"
+#include "support/strict_log.h"
+
+namespace rubble::test {
+namespace {
+
+using Overrides = std::vector<demo::Override>;
+
+// After the last frame; `world`: elements, springs and Bullet's bodies.
+struct Golden {
+  const char* precision;
+  std::uint64_t world, debris;
+};
+
+// A quarter of the elements and the ball 5 mm before the wall, so that a build without optimisation takes
+// seconds.
+const Overrides kSmall = {{"objects.0.elements", "512"},
+                          {"objects.0.radius", "0.026"},
+                          {"impactors.0.position", "[0, 0.5, -0.195]"},
+                          {"frames", "2"}};
+constexpr Golden kSmallHashes[] = {
+    {"float", 0x74e4a892316f062c, 0x15da3e3cdfb5e172},
+    {"double", 0x3169b769d411928f, 0x3996585e3eaa29aa},
+};
+
+// As bundled; by frame 6 the blow is over and debris fly.
+const Overrides kWhole = {{"frames", "6"}};
+constexpr Golden kWholeHashes[] = {
+    {"float", 0x39ea6fe4418a8406, 0x9923d7d1251fcf8d},
+    {"double", 0x1adb1f966cdccc3a, 0xa89958390b4f1769},
+};
+
+void expectHashes(const Overrides& overrides, std::span<const Golden> table) {
+  for (const Golden& golden : table) {
+    Overrides all = overrides;
+    all.push_back({"precision", golden.precision});
+    const demo::Scene scene = demo::loadScene("wall", all);
+    demo::World world(scene, demo::cookObjects(scene, {}, strictLog()), strictLog());
+    for (int frame = 0; frame < scene.frames; ++frame) world.step();
+    EXPECT_GT(world.destruction().counts().springsBroken, 0u);
+    EXPECT_FALSE(world.destruction().debris().empty());
+    const std::uint64_t hash = world.hash(), debris = world.destruction().debrisHash();
+    EXPECT_TRUE(hash == golden.world && debris == golden.debris)
+        << std::hex << "now    {\"" << golden.precision << "\", 0x" << hash << ", 0x" << debris << "},";
+  }
+}
+
+TEST(Golden, SmallWallAfterTheBlow) {
+  expectHashes(kSmall, kSmallHashes);
+}
+
+TEST(Golden, WallAfterTheBlow) {
+  expectHashes(kWhole, kWholeHashes);
+}
+
+}  // namespace
+}  // namespace rubble::test
