@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 namespace rubble::demo {
 namespace {
@@ -49,7 +50,9 @@ std::string shown(float value) {
   return shortest(value);
 }
 std::string shown(const Eigen::Vector3d& value) {
-  return "[" + shown(value.x()) + ", " + shown(value.y()) + ", " + shown(value.z()) + "]";
+  std::ostringstream text;
+  text << '[' << shown(value.x()) << ", " << shown(value.y()) << ", " << shown(value.z()) << ']';
+  return text.str();
 }
 
 std::string Range::text() const {

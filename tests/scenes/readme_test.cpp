@@ -1,0 +1,108 @@
+// Tables in READMEs are written by `rubble report ... --write`; here is told when they are out of date.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "demo/command_line.h"
+#include "demo/marked_text.h"
+#include "scenes/scene_file.h"
+#include "support/folders.h"
+
+namespace rubble::test {
+namespace {
+
+demo::ReportOptions parse(const std::string& command) {
+  std::istringstream stream(command);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  std::vector<char*> raw;
+  for (std::string& word : words) raw.push_back(word.data());
+  return demo::parseCommandLine(int(raw.size()), raw.data()).report;
+}
+
+std::vector<std::filesystem::path> readmes() {
+  std::vector<std::filesystem::path> files = {sourceFolder() + "/README.md"};
+  for (const char* folder : {"plugin", "demo", "tests"})
+    for (const auto& file : std::filesystem::recursive_directory_iterator(sourceFolder() + "/" + folder))
+      if (file.path().extension() == ".md") files.push_back(file.path());
+  return files;
+}
+
+// Scenes, presets or the solver have changed since: write the table again, and read what it says now.
+TEST(Readme, TablesBelongToTheScenesAndTheSolverAsTheyAre) {
+  int tables = 0;
+  for (const std::filesystem::path& file : readmes()) {
+    for (const demo::MarkedPart& part : demo::markedParts(file)) {
+      ++tables;
+      EXPECT_EQ(part.dependsOn, demo::reportHash(parse(part.command)))
+          << "run: build/release/demo/" << part.command << " --write " << file.string();
+    }
+  }
+  EXPECT_GE(tables, 2);
+}
+
+class Marked : public testing::Test {
+ protected:
+  std::string text() const {
+    std::ifstream stream(m_folder.path() / "notes.md");
+    std::ostringstream whole;
+    whole << stream.rdbuf();
+    return whole.str();
+  }
+  std::filesystem::path file() const { return m_folder.path() / "notes.md"; }
+
+  TestFolder m_folder;
+};
+
+TEST_F(Marked, TextBetweenTheMarkersIsReplacedAndNothingElse) {
+  const std::string end = "<!-- end: depends on 0000000000000000 -->\n";
+  m_folder.write("notes.md", "# Before\n\n<!-- rubble report a -->\nold\n" + end +
+                                 "\nbetween\n<!-- rubble report b -->\n" + end + "after\n");
+  demo::MarkedText(file(), "rubble report b").replace("new\n", "00000000000000bb");
+  EXPECT_EQ(text(), "# Before\n\n<!-- rubble report a -->\nold\n" + end +
+                        "\nbetween\n<!-- rubble report b -->\n\nnew\n\n"
+                        "<!-- end: depends on 00000000000000bb -->\nafter\n");
+  const std::vector<demo::MarkedPart> parts = demo::markedParts(file());
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].command, "rubble report a");
+  EXPECT_EQ(parts[0].dependsOn, "0000000000000000");
+  EXPECT_EQ(parts[1].dependsOn, "00000000000000bb");
+}
+
+TEST_F(Marked, AFileWithoutTheMarkersIsRefused) {
+  m_folder.write("notes.md", "# Notes\n<!-- rubble report a -->\n<!-- rubble report b -->\n");
+  EXPECT_THROW(demo::MarkedText(file(), "rubble report c"), demo::InputError);
+  EXPECT_THROW(demo::MarkedText(file(), "rubble report a"), demo::InputError);  // no end
+  EXPECT_THROW(demo::MarkedText(m_folder.path() / "none.md", "rubble report a"), demo::InputError);
+}
+
+// What a report depends on: every key of the scene, the presets among them; not how it looks.
+TEST_F(Marked, TheHashKnowsTheSceneAndNotItsLook) {
+  const std::filesystem::path scene = m_folder.write("small.json", kSmallWall);
+  demo::ReportOptions options{.scene = scene.string()};
+  const std::string first = demo::reportHash(options);
+  EXPECT_EQ(first.size(), 16u);
+  options.overrides = {{"camera.field_of_view_degrees", "30"}, {"light.ambient", "0.5"}};
+  EXPECT_EQ(demo::reportHash(options), first);
+  for (const auto& [key, value] : {std::pair("objects.0.material.friction", "0.61"),
+                                   std::pair("impactors.0.velocity", "[0,0,10.5]"), std::pair("seed", "7"),
+                                   std::pair("objects.0.anchor", "[0,1,0]"), std::pair("debris", "null")}) {
+    options.overrides = {{key, value}};
+    EXPECT_NE(demo::reportHash(options), first) << key;
+  }
+  options.overrides = {};
+  options.sweeps = {demo::parseSweep("precision=float;double")};
+  EXPECT_NE(demo::reportHash(options), first);
+}
+
+TEST(Sweep, IsAKeyAndItsValues) {
+  const demo::Sweep sweep = demo::parseSweep("impactors.0.velocity=[0,0,2];[0,0,5]");
+  EXPECT_EQ(sweep.key, "impactors.0.velocity");
+  EXPECT_EQ(sweep.values, (std::vector<std::string>{"[0,0,2]", "[0,0,5]"}));
+  for (const char* bad : {"seed", "seed=", "=1;2", "seed=1;;2"})
+    EXPECT_THROW(demo::parseSweep(bad), demo::InputError) << bad;
+}
+
+}  // namespace
+}  // namespace rubble::test
