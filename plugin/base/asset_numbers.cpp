@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/asset_check.h"
+
+namespace rubble::base {
+namespace {
+
+// Coordinates: beyond this squares and volumes of doubles are not sure to keep any digit [m].
+constexpr double kLargestCoordinate = 1e9;
+// Of the bounds [m]. Moments of inertia of such a solid (1e31 kg m^2 at 2 t/m^3) are still floats, in which
+// the elements move.
+constexpr double kLargestDiagonal = 1e6;
+// A solid of 1 mm has this radius with a hundred million elements [m]. Moments of inertia (1e-27 kg m^2 at
+// 2 t/m^3) and their inverses are floats down to there.
+constexpr double kLeastRadius = 1e-6;
+// Of springs and anchors [m^2]: below the rounding of the smallest faces, and far above the least float.
+constexpr double kLeastArea = 1e-30;
+// A cell holds most of its element; even one pressed into a needle's tip holds more of it than this share.
+constexpr double kLeastCellShare = 1e-6;
+// A normal is stored in floats; this is a few hundred times their rounding, and far from any wrong normal.
+constexpr float kUnitTolerance = 1e-4f;
+constexpr double kTolerance = 1e-6;  // for sums of up to ten million doubles
+
+template <class Vector>
+void checkPlace(const Vector& place, const char* array, std::size_t at, const char* field) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = double(place[axis]);
+    if (!(std::abs(value) <= kLargestCoordinate))
+      refuseAsset(array, '[', at, ']', field, '.', "xyz"[axis], " is ", value, " m; allowed: -",
+                  kLargestCoordinate, " to ", kLargestCoordinate);
+  }
+}
+
+void checkUnit(const Eigen::Vector3f& normal, const char* array, std::size_t at) {
+  const float length = normal.norm();
+  if (!(std::abs(length - 1.0f) <= kUnitTolerance))
+    refuseAsset(array, '[', at, "].normal has length ", length, "; allowed: 1");
+}
+
+void checkArea(double area, const char* array, std::size_t at, double least) {
+  if (!(area >= least) || !std::isfinite(area))
+    refuseAsset(array, '[', at, "].area is ", area, " m^2; allowed: finite and at least ", least);
+}
+
+AssetScale measureScale(const Asset& asset) {
+  AssetScale scale{asset.bounds(), 0};
+  const double farthest =
+      std::max(scale.bounds.min().cwiseAbs().maxCoeff(), scale.bounds.max().cwiseAbs().maxCoeff());
+  // Each coordinate is rounded by 2^-24 of itself at most, so a place moves by sqrt(3) 2^-24 of the farthest.
+  scale.rounding = double(std::numeric_limits<float>::epsilon()) * farthest;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(scale.rounding);
+  scale.bounds = Eigen::AlignedBox3d(scale.bounds.min() - margin, scale.bounds.max() + margin);
+  return scale;
+}
+
+void checkRadius(const Asset& asset, const AssetScale& scale) {
+  const double diagonal = scale.bounds.diagonal().norm();
+  if (!(diagonal <= kLargestDiagonal))
+    refuseAsset("the bounds of the vertices have a diagonal of ", diagonal, " m; allowed: up to ",
+                kLargestDiagonal);
+  if (!(asset.radius >= kLeastRadius && 2 * asset.radius <= diagonal))
+    refuseAsset("radius is ", asset.radius, " m; allowed: ", kLeastRadius, " to half the bounds' diagonal, ",
+                diagonal / 2);
+}
+
+void checkElements(const Asset& asset, const AssetScale& scale) {
+  const double ball = ballVolume(asset.radius);
+  const double most = scale.bounds.volume() * (1 + kTolerance);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(asset.radius);
+  const Eigen::AlignedBox3d grown(scale.bounds.min() - reach, scale.bounds.max() + reach);
+  for (std::size_t i = 0; i < asset.elementCount(); ++i) {
+    checkPlace(asset.positions[i], "positions", i, "");
+    if (!grown.contains(asset.positions[i]))
+      refuseAsset("positions[", i, "] is (", asset.positions[i].transpose(),
+                  "); allowed: within a radius of the "
+                  "bounds of the vertices");
+    if (!(asset.volumes[i] >= kLeastCellShare * ball && asset.volumes[i] <= most))
+      refuseAsset("volumes[", i, "] is ", asset.volumes[i], " m^3; allowed: ", kLeastCellShare * ball, " to ",
+                  most, ", a millionth of an element to the whole bounds");
+    if (!(asset.gyrations[i] > 0) || !std::isfinite(asset.gyrations[i]))
+      refuseAsset("gyrations[", i, "] is ", asset.gyrations[i], " m^2; allowed: above 0");
+  }
+  const double sum = asset.volume();
+  const double least = double(asset.elementCount()) * ball / (1 + kTolerance);
+  if (!(sum >= least && sum <= most))
+    refuseAsset("volumes add up to ", sum, " m^3; allowed: ", least, " to ", most,
+                ", the volume of the elements to that of the bounds");
+}
+
+}  // namespace
+
+AssetScale checkNumbers(const Asset& asset) {
+  for (std::size_t v = 0; v < asset.vertices.size(); ++v)
+    checkPlace(asset.vertices[v].position, "vertices", v, ".position");
+  const AssetScale scale = measureScale(asset);
+  checkRadius(asset, scale);
+  checkElements(asset, scale);
+  for (std::size_t s = 0; s < asset.springs.size(); ++s)
+    checkArea(asset.springs[s].area, "springs", s, kLeastArea);
+  for (std::size_t a = 0; a < asset.anchors.size(); ++a) {
+    checkArea(asset.anchors[a].area, "anchors", a, kLeastArea);
+    checkPlace(asset.anchors[a].point, "anchors", a, ".point");
+  }
+  for (std::size_t c = 0; c < asset.corners.size(); ++c) checkUnit(asset.corners[c].normal, "corners", c);
+  for (std::size_t f = 0; f < asset.faces.size(); ++f) {
+    checkArea(double(asset.faces[f].area), "faces", f, 0);
+    checkUnit(asset.faces[f].normal, "faces", f);
+    checkPlace(asset.faces[f].centroid, "faces", f, ".centroid");
+  }
+  return scale;
+}
+
+}  // namespace rubble::base

@@ -1,0 +1,56 @@
+// What the cook makes is never refused: solids of all kinds, from a millimetre to a kilometre, far from the
+// origin.
+#include <gtest/gtest.h>
+
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+struct Solid {
+  const char* name;
+  SurfaceMesh mesh;
+  std::size_t elements;
+};
+
+std::vector<Solid> solids() {
+  return {{"cube", boxMesh({1, 1, 1}), 1},
+          {"cube", boxMesh({1, 1, 1}), 2},
+          {"cube", boxMesh({1, 1, 1}), 150},
+          {"plate", boxMesh({1, 1, 0.02}), 60},
+          {"rod", boxMesh({0.01, 1, 0.01}), 30},
+          {"L", ell(), 40},
+          {"slot", you(0.01), 100},
+          {"torus", torus(1, 0.3, 24, 12), 80},
+          {"ball", ball(1, 12), 1},
+          {"ball", ball(1, 12), 40},
+          {"hollow cube", hollowCube(), 60},
+          {"two cubes", joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {3, 0, 0})), 40}};
+}
+
+SurfaceMesh placed(SurfaceMesh mesh, double scale, const Eigen::Vector3d& at) {
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = scale * vertex + at;
+  return mesh;
+}
+
+TEST(CookedAsset, IsValidAtEveryScaleAndPlace) {
+  for (const Solid& solid : solids())
+    for (const double scale : {1e-3, 1.0, 1e3})
+      for (const double away : {0.0, 1e4, 1e6})
+        for (const double least : {0.02, 0.0}) {
+          CookOptions options = optionsFor(solid.elements);
+          options.minFaceArea = least;
+          options.anchorDirection = -Eigen::Vector3d::UnitY();
+          options.anchorBand = 1e-6 * scale + 1e-15 * away;
+          SCOPED_TRACE(std::string(solid.name) + " x " + std::to_string(scale) + " at " + std::to_string(away));
+          try {
+            const Asset asset = cook(placed(solid.mesh, scale, away * Eigen::Vector3d(1, -0.3, 0.2)), options);
+            EXPECT_EQ(asset.elementCount(), solid.elements);
+          } catch (const Error& error) {
+            ADD_FAILURE() << error.what();
+          }
+        }
+}
+
+}  // namespace
+}  // namespace rubble::test
