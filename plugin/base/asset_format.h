@@ -8,13 +8,9 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <type_traits>
 
 #include "rubble/asset.h"
 #include "rubble/error.h"
@@ -35,6 +31,7 @@ enum AssetArray {
   kCells,
   kAssetArrays
 };
+using AssetCounts = std::array<std::uint64_t, kAssetArrays>;
 
 /// Bytes of one record of each array in the file, and what messages call it.
 struct AssetRecord {
@@ -49,29 +46,38 @@ inline constexpr std::array<AssetRecord, kAssetArrays> kAssetRecords = {{{3 * 8 
                                                                          {3 * 4, "triangles"},
                                                                          {4 + 4 + 3 * 4 + 3 * 4, "faces"},
                                                                          {5 * 4, "cells"}}};
-using AssetCounts = std::array<std::uint64_t, kAssetArrays>;
 
 inline constexpr std::size_t kAssetChecksumOffset = kAssetMagic.size() + 4 + 4;
-inline constexpr std::size_t kAssetBodyOffset = kAssetChecksumOffset + 8;  ///< where the checksum's cover begins
+/// The checksum covers the file from here on.
+inline constexpr std::size_t kAssetBodyOffset = kAssetChecksumOffset + 8;
 inline constexpr std::size_t kAssetHeaderBytes = kAssetBodyOffset + 8 + 8 * kAssetArrays;
-/// Files are read and written in pieces of so many bytes; a multiple of the checksum's words.
-inline constexpr std::size_t kAssetBlock = 1 << 16;
+
+/// The largest file that is written or read [bytes]: ten million elements, the most that the cook makes, take
+/// about 28 GB. It also keeps every count below what a 32-bit index can name.
+inline constexpr std::uint64_t kMostAssetBytes = std::uint64_t{32} << 30;
+/// Files are read and written in blocks of so many bytes, a multiple of the checksum's words.
+inline constexpr std::size_t kAssetBlock = std::size_t{1} << 16;
 static_assert(kAssetBlock % 8 == 0);
 
-/// Copies a plain number to or from its little-endian bytes.
-template <class T>
-void swapToLittleEndian(std::span<std::uint8_t, sizeof(T)> bytes) {
-  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+/// One description of the arrays' fields serves both directions: `field` writes or reads what it is given.
+template <class AssetType, class Field>
+void visitAssetFields(AssetType& asset, Field&& field) {
+  for (auto& position : asset.positions) field(position);
+  for (auto& volume : asset.volumes) field(volume);
+  for (auto& gyration : asset.gyrations) field(gyration);
+  for (auto& s : asset.springs) field(s.first), field(s.second), field(s.area);
+  for (auto& a : asset.anchors) field(a.element), field(a.area), field(a.point);
+  for (auto& v : asset.vertices) field(v.position), field(v.elements);
+  for (auto& c : asset.corners) field(c.vertex), field(c.element), field(c.normal);
+  for (auto& triangle : asset.triangles) field(triangle);
+  for (auto& f : asset.faces) field(f.neighbour), field(f.area), field(f.normal), field(f.centroid);
+  for (auto& c : asset.cells)
+    field(c.firstTriangle), field(c.outerTriangles), field(c.innerTriangles), field(c.firstFace),
+        field(c.faceCount);
 }
 
-/// Takes vectors, arrays and numbers apart and calls `number` with a reference to each plain number.
-template <class Value, class Number>
-void visitNumbers(Value& value, Number&& number) {
-  if constexpr (std::is_arithmetic_v<std::remove_const_t<Value>>) {
-    number(value);
-  } else {
-    for (std::size_t k = 0; k < std::size_t(value.size()); ++k) number(value[typename SizeOf<Value>::Index(k)]);
-  }
+[[noreturn]] inline void refuseFile(const std::filesystem::path& file, const std::string& what) {
+  throw Error(file.string() + ": " + what);
 }
 
 }  // namespace rubble::base

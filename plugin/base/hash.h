@@ -34,9 +34,9 @@ class Fnv1a {
 };
 
 /// FNV-1a taken over little-endian 64-bit words instead of bytes, eight times faster; for files. Each step is
-/// a bijection of the state and of the word, so a change confined to one word is always seen.
-inline std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = Fnv1a::kOffsetBasis;
+/// a bijection of the state and of the word, so a change confined to one word is always seen. `hash` is the
+/// checksum of what comes before these bytes, if that is a multiple of 8 bytes long.
+inline std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t hash = Fnv1a::kOffsetBasis) {
   for (std::size_t at = 0; at < bytes.size(); at += 8) {
     std::uint64_t word = 0;
     for (std::size_t b = 0; b < 8 && at + b < bytes.size(); ++b)

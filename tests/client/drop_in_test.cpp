@@ -8,6 +8,8 @@
 #include "scenes/scene_file.h"
 #include "support/folders.h"
 #include "support/strict_cook.h"
+#include "unit/base/asset_bytes.h"
+#include "unit/cook/shapes.h"
 
 namespace rubble::test {
 namespace {
@@ -60,6 +62,20 @@ TEST(DropIn, AddsAtMostTenLinesToHelloWorld) {
   for (std::string line; std::getline(source, line);) ours += line.find("// ours") != std::string::npos;
   EXPECT_GT(ours, 0);
   EXPECT_LE(ours, 10);
+}
+
+// A right checksum and a radius of 1e300 m: no ball at (nan, nan, nan).
+TEST(DropIn, RefusesAnAbsurdAsset) {
+  const TestFolder folder;
+  const std::string file = cookedBlock(folder);
+  std::string bytes = fileBytes(file);
+  setNumber(bytes, kRadiusAt, 1e300);
+  seal(bytes);
+  writeBytes(file, bytes);
+  const ChildResult result = runChild(RUBBLE_DROP_IN " " + file, folder.path());
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_NE(result.error.find("radius is 1e+300 m"), std::string::npos) << result.error;
+  EXPECT_EQ(result.out, "");
 }
 
 TEST(DropIn, RefusesWhatIsNoAsset) {

@@ -91,14 +91,19 @@ struct Asset {
   /// Faces of one cell.
   std::span<const CellFace> cellFaces(std::size_t element) const;
 
-  /// Throws rubble::Error when a count, an index or a number is impossible. `load` has called it already.
+  /// Throws rubble::Error with one line, the field, its index, its value and what is allowed, when a count,
+  /// an index or a number is impossible: places beyond 1e9 m, solids over 1e6 m across, radii below 1e-6 m,
+  /// elements nearer than half a radius to one another, or volumes, gyrations, areas and places that
+  /// contradict the cell's triangles. `load` has called it already. Linear time.
   void validate() const;
 };
 
-/// Writes a versioned little-endian file with sizes and a checksum; the file appears whole or not at all.
+/// Writes a versioned little-endian file with sizes and a checksum; the file appears whole or not at all, and
+/// nothing stays beside it. Throws rubble::Error naming the file and the reason: an asset that is not valid
+/// or would take more than 32 GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file and trusts nothing in it. Throws rubble::Error naming the file and what is wrong with
-/// it.
+/// Reads such a file and trusts nothing in it: header, length and checksum are checked before the asset gets
+/// any memory, and the asset is validated. Throws rubble::Error naming the file and what is wrong with it.
 Asset load(const std::filesystem::path& file);
 
 }  // namespace rubble

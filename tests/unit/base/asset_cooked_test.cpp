@@ -42,9 +42,11 @@ TEST(CookedAsset, IsValidAtEveryScaleAndPlace) {
           options.minFaceArea = least;
           options.anchorDirection = -Eigen::Vector3d::UnitY();
           options.anchorBand = 1e-6 * scale + 1e-15 * away;
-          SCOPED_TRACE(std::string(solid.name) + " x " + std::to_string(scale) + " at " + std::to_string(away));
+          SCOPED_TRACE(std::string(solid.name) + " x " + std::to_string(scale) + " at " +
+                       std::to_string(away));
           try {
-            const Asset asset = cook(placed(solid.mesh, scale, away * Eigen::Vector3d(1, -0.3, 0.2)), options);
+            const Asset asset =
+                cook(placed(solid.mesh, scale, away * Eigen::Vector3d(1, -0.3, 0.2)), options);
             EXPECT_EQ(asset.elementCount(), solid.elements);
           } catch (const Error& error) {
             ADD_FAILURE() << error.what();

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/strict_cook.h"
+#include "unit/base/asset_bytes.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -49,10 +50,6 @@ class AssetFile : public testing::Test {
   Asset m_asset;
   std::string m_bytes;
 };
-
-// Offsets of the format, written down a second time on purpose.
-constexpr std::size_t kVersionAt = 8;
-constexpr std::size_t kCountsAt = 32;
 
 TEST_F(AssetFile, ComesBackAsItWas) {
   const Asset read = load(m_file);

@@ -1,0 +1,236 @@
+// Reads an asset file twice: first header, length and checksum, in a block of constant size, then the arrays.
+// So a file that is damaged, or no asset at all, costs no memory whatever its size.
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/asset_format.h"
+#include "base/hash.h"
+
+namespace rubble {
+namespace {
+
+using namespace base;
+
+std::string reasonOf(int error) {
+  return error == 0 ? std::string() : ": " + std::generic_category().message(error);
+}
+
+// A plain number from its little-endian bytes.
+template <class T>
+T decoded(const std::uint8_t* bytes) {
+  std::array<std::uint8_t, sizeof(T)> number;
+  std::memcpy(number.data(), bytes, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::reverse(number.begin(), number.end());
+  return std::bit_cast<T>(number);
+}
+
+struct Header {
+  std::uint64_t checksum = 0;
+  double radius = 0;
+  AssetCounts counts{};
+};
+
+// The file's body in blocks; adds up the checksum of what it has read.
+class BodyReader {
+ public:
+  BodyReader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t bytes)
+      : m_file(file), m_stream(stream), m_left(bytes), m_buffer(kMostNumber + kAssetBlock) {
+    m_stream.clear();
+    m_stream.seekg(std::streamoff(kAssetBodyOffset));
+  }
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void get(T& value) {
+    if (m_end - m_at < sizeof(T)) refill();
+    value = decoded<T>(m_buffer.data() + m_at);
+    m_at += sizeof(T);
+  }
+  template <class Scalar>
+  void get(Eigen::Matrix<Scalar, 3, 1>& v) {
+    for (int axis = 0; axis < 3; ++axis) get(v[axis]);
+  }
+  template <std::size_t N>
+  void get(std::array<std::uint32_t, N>& values) {
+    for (std::uint32_t& value : values) get(value);
+  }
+
+  // Reads what is left for the checksum's sake.
+  void drain() {
+    while (m_left > 0) {
+      m_at = m_end;
+      refill();
+    }
+  }
+  std::uint64_t checksum() const { return m_checksum; }
+
+ private:
+  static constexpr std::size_t kMostNumber = 8;  // bytes of the longest number, which blocks may cut
+
+  // Callers ask for as many numbers as the length check has let through.
+  void refill() {
+    std::copy(m_buffer.begin() + std::ptrdiff_t(m_at), m_buffer.begin() + std::ptrdiff_t(m_end),
+              m_buffer.begin());
+    m_end -= m_at;
+    m_at = 0;
+    const std::span block(m_buffer.data() + m_end, std::size_t(std::min<std::uint64_t>(m_left, kAssetBlock)));
+    errno = 0;
+    m_stream.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.size()));
+    const int error = errno;
+    if (m_stream.eof()) refuseFile(m_file, "is cut off: it became shorter while it was being read");
+    if (!m_stream) refuseFile(m_file, "cannot be read" + reasonOf(error));
+    m_checksum = base::checksum(block, m_checksum);
+    m_left -= block.size();
+    m_end += block.size();
+  }
+
+  const std::filesystem::path& m_file;
+  std::ifstream& m_stream;
+  std::uint64_t m_left;  // bytes of the body not yet read
+  std::vector<std::uint8_t> m_buffer;
+  std::size_t m_at = 0, m_end = 0;
+  std::uint64_t m_checksum = base::Fnv1a::kOffsetBasis;
+};
+
+// Its size, if it is a file whose bytes can be read at all. Asked before it is opened: opening a pipe waits
+// for a writer.
+std::uint64_t sizeOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  switch (status.type()) {
+    case std::filesystem::file_type::regular:
+      break;
+    case std::filesystem::file_type::not_found:
+      refuseFile(file, "no such file");
+    case std::filesystem::file_type::directory:
+      refuseFile(file, "is a folder; allowed: an asset file");
+    case std::filesystem::file_type::fifo:
+      refuseFile(file, "is a pipe; allowed: an asset file");
+    case std::filesystem::file_type::socket:
+      refuseFile(file, "is a socket; allowed: an asset file");
+    case std::filesystem::file_type::block:
+    case std::filesystem::file_type::character:
+      refuseFile(file, "is a device; allowed: an asset file");
+    default:
+      refuseFile(file, "cannot be read: " + (error ? error.message() : "it is no regular file"));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) refuseFile(file, "cannot be read: " + error.message());
+  return size;
+}
+
+Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
+  std::array<std::uint8_t, kAssetHeaderBytes> bytes{};
+  const std::size_t count = std::size_t(std::min<std::uint64_t>(size, bytes.size()));
+  errno = 0;
+  stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(count));
+  if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
+  const std::size_t start = std::min(count, kAssetMagic.size());
+  if (std::memcmp(bytes.data(), kAssetMagic.data(), start) != 0) refuseFile(file, "is not a rubble asset");
+  if (count < bytes.size())
+    refuseFile(file, "is cut off, or not an asset: it has " + std::to_string(size) +
+                         " bytes; an asset's header has " + std::to_string(bytes.size()));
+  const std::uint8_t* at = bytes.data() + kAssetMagic.size();
+  const auto version = decoded<std::uint32_t>(at);
+  const auto headerBytes = decoded<std::uint32_t>(at + 4);
+  if (version != kAssetVersion)
+    refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads version " +
+                         std::to_string(kAssetVersion) + ": cook it again");
+  if (headerBytes != kAssetHeaderBytes)
+    refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
+                         " bytes; allowed: " + std::to_string(kAssetHeaderBytes));
+  Header header;
+  header.checksum = decoded<std::uint64_t>(bytes.data() + kAssetChecksumOffset);
+  header.radius = decoded<double>(bytes.data() + kAssetBodyOffset);
+  for (std::size_t a = 0; a < kAssetArrays; ++a)
+    header.counts[a] = decoded<std::uint64_t>(bytes.data() + kAssetBodyOffset + 8 + 8 * a);
+  return header;
+}
+
+void checkLength(const std::filesystem::path& file, std::uint64_t size, const AssetCounts& counts) {
+  if (size > kMostAssetBytes)
+    refuseFile(file,
+               "has " + std::to_string(size) + " bytes; allowed: up to " + std::to_string(kMostAssetBytes));
+  std::uint64_t left = size - kAssetHeaderBytes;
+  for (std::size_t a = 0; a < kAssetArrays; ++a) {
+    if (counts[a] > left / kAssetRecords[a].bytes) {  // a product could overflow
+      std::ostringstream text;
+      text << "is cut off or damaged: " << counts[a] << ' ' << kAssetRecords[a].name
+           << " do not fit into the file's " << size << " bytes";
+      refuseFile(file, text.str());
+    }
+    left -= counts[a] * kAssetRecords[a].bytes;
+  }
+  if (left != 0) refuseFile(file, "is damaged: " + std::to_string(left) + " bytes too many at its end");
+  if (counts[kElements] != counts[kCells])
+    refuseFile(file, "is damaged: " + std::to_string(counts[kCells]) + " cells for " +
+                         std::to_string(counts[kElements]) + " elements; allowed: one an element");
+}
+
+void checkChecksum(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
+                   const Header& header) {
+  BodyReader body(file, stream, size - kAssetBodyOffset);
+  body.drain();
+  if (body.checksum() != header.checksum) refuseFile(file, "is damaged: its checksum does not match");
+}
+
+Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
+               const Header& header) {
+  Asset asset;
+  const AssetCounts& counts = header.counts;
+  asset.positions.resize(counts[kElements]);
+  asset.volumes.resize(counts[kElements]);
+  asset.gyrations.resize(counts[kElements]);
+  asset.springs.resize(counts[kSprings]);
+  asset.anchors.resize(counts[kAnchors]);
+  asset.vertices.resize(counts[kVertices]);
+  asset.corners.resize(counts[kCorners]);
+  asset.triangles.resize(counts[kTriangles]);
+  asset.faces.resize(counts[kFaces]);
+  asset.cells.resize(counts[kCells]);
+
+  BodyReader body(file, stream, size - kAssetBodyOffset);
+  body.get(asset.radius);
+  AssetCounts again{};
+  for (std::uint64_t& count : again) body.get(count);
+  visitAssetFields(asset, [&body](auto& value) { body.get(value); });
+  if (body.checksum() != header.checksum || again != counts ||
+      stream.peek() != std::ifstream::traits_type::eof())
+    refuseFile(file, "is damaged: it changed while it was being read");
+  return asset;
+}
+
+Asset loadFile(const std::filesystem::path& file) {
+  const std::uint64_t size = sizeOf(file);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
+  const Header header = readHeader(file, stream, size);
+  checkLength(file, size, header.counts);
+  checkChecksum(file, stream, size, header);
+  Asset asset = readBody(file, stream, size, header);
+  try {
+    asset.validate();
+  } catch (const Error& error) {
+    refuseFile(file, std::string("holds an impossible ") + error.what());
+  }
+  return asset;
+}
+
+}  // namespace
+
+Asset load(const std::filesystem::path& file) try { return loadFile(file); } catch (const std::bad_alloc&) {
+  base::refuseFile(file, "not enough memory to load it");
+} catch (const std::length_error&) {  // more than a vector can ever hold, where pointers are short
+  base::refuseFile(file, "not enough memory to load it");
+}
+
+}  // namespace rubble

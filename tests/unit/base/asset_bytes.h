@@ -1,0 +1,86 @@
+// The asset file's layout, written down a second time on purpose, and tools to forge files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+
+namespace rubble::test {
+
+inline constexpr std::size_t kVersionAt = 8;
+inline constexpr std::size_t kChecksumAt = 16;
+inline constexpr std::size_t kBodyAt = 24;
+inline constexpr std::size_t kRadiusAt = 24;
+inline constexpr std::size_t kCountsAt = 32;
+inline constexpr std::size_t kHeaderBytes = 96;
+
+/// Little-endian, as the hosts of these tests are.
+template <class T>
+void setNumber(std::string& bytes, std::size_t at, T value) {
+  std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+template <class T>
+T numberAt(const std::string& bytes, std::size_t at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
+}
+
+/// Makes the checksum right again.
+inline void seal(std::string& bytes) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  setNumber(bytes, kChecksumAt, base::checksum(std::span(data, bytes.size()).subspan(kBodyAt)));
+}
+
+inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
+}
+
+enum class NumberKind { Index, Float, Double };
+/// Where a number stands in the file.
+struct NumberPlace {
+  std::string name;
+  std::size_t at;
+  NumberKind kind;
+};
+
+/// All numbers of the file's body but the counts.
+inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
+  using enum NumberKind;
+  struct Table {
+    const char* name;
+    std::size_t count;  // which of the header's
+    std::vector<NumberKind> record;
+  };
+  const std::vector<Table> tables = {
+      {"positions", 0, {Double, Double, Double}},
+      {"volumes", 0, {Double}},
+      {"gyrations", 0, {Double}},
+      {"springs", 1, {Index, Index, Double}},
+      {"anchors", 2, {Index, Double, Double, Double, Double}},
+      {"vertices", 3, {Float, Float, Float, Index, Index, Index, Index}},
+      {"corners", 4, {Index, Index, Float, Float, Float}},
+      {"triangles", 5, {Index, Index, Index}},
+      {"faces", 6, {Index, Float, Float, Float, Float, Float, Float, Float}},
+      {"cells", 7, {Index, Index, Index, Index, Index}},
+  };
+  std::vector<NumberPlace> places = {{"radius", kRadiusAt, Double}};
+  std::size_t at = kHeaderBytes;
+  for (const Table& table : tables)
+    for (std::uint64_t k = 0; k < numberAt<std::uint64_t>(bytes, kCountsAt + 8 * table.count); ++k)
+      for (std::size_t f = 0; f < table.record.size(); ++f) {
+        places.push_back({std::string(table.name) + '[' + std::to_string(k) + "] number " + std::to_string(f),
+                          at, table.record[f]});
+        at += table.record[f] == Double ? 8 : 4;
+      }
+  return places;
+}
+
+}  // namespace rubble::test

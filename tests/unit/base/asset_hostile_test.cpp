@@ -1,0 +1,181 @@
+// Files with a right checksum and wrong numbers, and paths that are no files.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <random>
+
+#include "unit/base/asset_bytes.h"
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+class HostileAsset : public testing::Test {
+ protected:
+  HostileAsset() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    m_folder = std::filesystem::path(testing::TempDir()) / ("rubble_hostile_asset_" + name);
+    std::filesystem::remove_all(m_folder);
+    std::filesystem::create_directories(m_folder);
+    m_file = m_folder / "box.asset";
+    CookOptions options = optionsFor(12);
+    options.anchorDirection = -Eigen::Vector3d::UnitY();
+    m_asset = cook(boxMesh({1, 1, 1}), options);
+    save(m_asset, m_file);
+    m_bytes = fileBytes(m_file);
+  }
+  ~HostileAsset() override { std::filesystem::remove_all(m_folder); }
+
+  static std::string refusal(const std::filesystem::path& file) {
+    try {
+      load(file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string refusalOf(std::string bytes) const {
+    seal(bytes);
+    writeBytes(m_file, bytes);
+    return refusal(m_file);
+  }
+  static void expectHas(const std::string& text, const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << '"' << text << "\" lacks: " << words;
+  }
+
+  std::filesystem::path m_folder, m_file;
+  Asset m_asset;
+  std::string m_bytes;
+};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// No field at all may hold these: no element is so large or so small, no place so far away.
+TEST_F(HostileAsset, IsRefusedWithAbsurdNumbersAnywhere) {
+  ASSERT_EQ(refusalOf(m_bytes), "");
+  std::mt19937_64 generator(3);
+  const std::vector<NumberPlace> places = numberPlaces(m_bytes);
+  for (int k = 0; k < 600; ++k) {
+    const NumberPlace& place = places[generator() % places.size()];
+    std::string bytes = m_bytes;
+    if (place.kind == NumberKind::Double) {
+      for (const double value : {1e300, -1e300, 2e9, kInfinity, -kInfinity, std::nan("")}) {
+        setNumber(bytes, place.at, value);
+        EXPECT_NE(refusalOf(bytes), "") << place.name << " = " << value;
+      }
+    } else if (place.kind == NumberKind::Float) {
+      for (const float value : {3e38f, -3e38f, 2e9f, float(kInfinity), std::nanf("")}) {
+        setNumber(bytes, place.at, value);
+        EXPECT_NE(refusalOf(bytes), "") << place.name << " = " << value;
+      }
+    } else {
+      for (const std::uint32_t value : {0xfffffffeu, 0x80000000u, 1000000u}) {
+        setNumber(bytes, place.at, value);
+        EXPECT_NE(refusalOf(bytes), "") << place.name << " = " << value;
+      }
+    }
+  }
+}
+
+TEST_F(HostileAsset, RadiusIsNamedWithWhatIsAllowed) {
+  for (const double radius : {1e300, 1e-320, 0.0, -1.0, 1e-7, 2.0}) {
+    std::string bytes = m_bytes;
+    setNumber(bytes, kRadiusAt, radius);
+    const std::string text = refusalOf(bytes);
+    expectHas(text, "box.asset: ");
+    expectHas(text, "radius is ");
+    expectHas(text, "allowed: 1e-06 to half the bounds' diagonal");
+  }
+}
+
+TEST_F(HostileAsset, ContradictionsAreNamed) {
+  struct Fault {
+    const char* words;
+    std::function<void(Asset&)> make;
+  };
+  const std::vector<Fault> faults = {
+      {"positions[1] is 0 m from positions[0]", [](Asset& a) { a.positions[1] = a.positions[0]; }},
+      {"positions[", [](Asset& a) { a.positions[3] += Eigen::Vector3d(3, 0, 0); }},
+      {"volumes[2] is", [](Asset& a) { a.volumes[2] *= 0.99; }},
+      {"volumes[2] is", [](Asset& a) { a.volumes[2] = 1e-320; }},
+      {"gyrations[4] is", [](Asset& a) { a.gyrations[4] *= 100; }},
+      {"gyrations[4] is", [](Asset& a) { a.gyrations[4] = 1e-320; }},
+      {"springs[0].area is", [](Asset& a) { a.springs[0].area *= 2; }},
+      {"springs[0].area is", [](Asset& a) { a.springs[0].area = 1e-320; }},
+      {"anchors[0].area is", [](Asset& a) { a.anchors[0].area = 7; }},
+      {"anchors[0].point is", [](Asset& a) { a.anchors[0].point = a.positions[a.anchors[0].element]; }},
+      {"anchors[0].point is", [](Asset& a) { a.anchors[0].point.y() -= 1; }},
+      {"is in no corner", [](Asset& a) { a.vertices.push_back(a.vertices[0]); }},
+      {"twice; allowed", [](Asset& a) { a.vertices[0].elements[1] = a.vertices[0].elements[0]; }},
+      {"faces[0].area is", [](Asset& a) { a.faces[0].area = 10; }},
+      {"faces[0].centroid is", [](Asset& a) { a.faces[0].centroid.x() += 5; }},
+      {"its own cell", [](Asset& a) { a.faces[0].neighbour = 0; }},
+      {"volumes[", [](Asset& a) { a.vertices[0].position.x() += 0.5f; }},
+      {"cells[0] has", [](Asset& a) { a.cells[0].outerTriangles = kNoElement; }}};
+  for (const Fault& fault : faults) {
+    Asset bad = m_asset;
+    fault.make(bad);
+    try {
+      bad.validate();
+      ADD_FAILURE() << "accepted; expected: " << fault.words;
+    } catch (const Error& error) {
+      expectHas(error.what(), fault.words);
+      expectHas(error.what(), "allowed");
+    }
+  }
+}
+
+TEST_F(HostileAsset, WhatIsNoFileIsCalledWhatItIs) {
+  expectHas(refusal(m_folder), "is a folder");
+  const std::filesystem::path pipe = m_folder / "pipe", link = m_folder / "link",
+                              dangling = m_folder / "dangling";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink(pipe, link);
+  std::filesystem::create_symlink(m_folder / "nothing", dangling);
+  expectHas(refusal(pipe), "pipe: is a pipe");
+  expectHas(refusal(link), "link: is a pipe");
+  expectHas(refusal(dangling), "no such file");
+  expectHas(refusal("/dev/zero"), "is a device");
+  EXPECT_THROW(save(m_asset, pipe), Error);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_THROW(save(m_asset, m_folder), Error);
+}
+
+// 20 GB without a byte on the disk, named in the file's header or not.
+TEST_F(HostileAsset, HugeFilesAreRefusedByTheirHeader) {
+  writeBytes(m_file, "");
+  std::filesystem::resize_file(m_file, 20'000'000'000u);
+  expectHas(refusal(m_file), "box.asset: is not a rubble asset");
+  writeBytes(m_file, m_bytes);
+  std::filesystem::resize_file(m_file, 20'000'000'000u);
+  expectHas(refusal(m_file), "bytes too many at its end");
+  std::filesystem::resize_file(m_file, 40'000'000'000u);
+  expectHas(refusal(m_file), "allowed: up to 34359738368");
+}
+
+// The limit of a file's size stands for a full disk: both fail in the middle of writing.
+TEST_F(HostileAsset, IsNotReplacedOnAFullDisk) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{m_bytes.size() / 2, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string text;
+  try {
+    save(m_asset, m_file);
+  } catch (const Error& error) {
+    text = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  expectHas(text, "box.asset: cannot be written: File too large");
+  EXPECT_EQ(fileBytes(m_file), m_bytes);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_folder), {}), 1);
+}
+
+}  // namespace
+}  // namespace rubble::test
