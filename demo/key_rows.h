@@ -9,28 +9,27 @@
 namespace rubble::demo {
 
 template <class T, class M>
-Key<T> number(std::string name, M member, Range range, std::string unit, std::string meaning) {
+Key<T> number(std::string name, M member, Limits limits, std::string unit, std::string meaning) {
   return {std::move(name),
-          "number, " + range.text(),
+          "number, " + limits.text(),
           std::move(unit),
           std::move(meaning),
           [=](T& target, const Json& json, const Place& place) {
             using Value = std::decay_t<decltype(target.*member)>;
-            target.*member = Value(readNumber(json, range, place));
+            target.*member = Value(readNumber(json, limits, place));
           },
           [=](const T& target) { return shown(target.*member); }};
 }
 
 template <class T, class M>
-Key<T> whole(std::string name, M member, double min, double max, std::string unit, std::string meaning) {
-  const Range range = between(min, max);
+Key<T> whole(std::string name, M member, Limits limits, std::string unit, std::string meaning) {
   return {std::move(name),
-          "whole number, " + range.text(),
+          "whole number, " + limits.text(),
           std::move(unit),
           std::move(meaning),
           [=](T& target, const Json& json, const Place& place) {
             using Value = std::decay_t<decltype(target.*member)>;
-            target.*member = Value(readWhole(json, range, place));
+            target.*member = Value(readWhole(json, limits, place));
           },
           [=](const T& target) { return std::to_string(target.*member); }};
 }
@@ -46,13 +45,13 @@ Key<T> flag(std::string name, bool T::*member, std::string meaning) {
 }
 
 template <class T, class M>
-Key<T> vector(std::string name, M member, Range range, std::string unit, std::string meaning) {
+Key<T> vector(std::string name, M member, Limits limits, std::string unit, std::string meaning) {
   return {std::move(name),
-          "[x, y, z], each " + range.text(),
+          "[x, y, z], each " + limits.text(),
           std::move(unit),
           std::move(meaning),
           [=](T& target, const Json& json, const Place& place) {
-            target.*member = readVector(json, range, place);
+            target.*member = readVector(json, limits, place);
           },
           [=](const T& target) { return shown(Eigen::Vector3d(target.*member)); }};
 }
@@ -60,7 +59,7 @@ Key<T> vector(std::string name, M member, Range range, std::string unit, std::st
 /// A direction: any vector but zero; it need not be of unit length.
 template <class T, class M>
 Key<T> direction(std::string name, M member, std::string meaning) {
-  Key<T> key = vector<T>(std::move(name), member, between(-1e6, 1e6), "", std::move(meaning));
+  Key<T> key = vector<T>(std::move(name), member, Limits{-1e6, 1e6}, "", std::move(meaning));
   key.type = "[x, y, z], not zero";
   key.read = [read = key.read, member](T& target, const Json& json, const Place& place) {
     read(target, json, place);

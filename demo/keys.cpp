@@ -1,21 +1,12 @@
 #include "demo/keys.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "base/number_text.h"
+
 namespace rubble::demo {
 namespace {
-
-template <class Float>
-std::string shortest(Float value) {
-  constexpr Float kAllDigits = Float(1e9);  // whole numbers below are not written as 1e+05
-  if (value == std::floor(value) && std::abs(value) < kAllDigits) return std::to_string(long(value));
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return std::string(text.data(), end);
-}
 
 std::string kind(const Json& value) {
   return std::string("is ") + shown(value);
@@ -44,10 +35,10 @@ std::string shown(const Json& value) {
 }
 
 std::string shown(double value) {
-  return shortest(value);
+  return base::numberText(value);
 }
 std::string shown(float value) {
-  return shortest(value);
+  return base::numberText(value);
 }
 std::string shown(const Eigen::Vector3d& value) {
   std::ostringstream text;
@@ -55,36 +46,18 @@ std::string shown(const Eigen::Vector3d& value) {
   return text.str();
 }
 
-std::string Range::text() const {
-  const bool unlimited = max >= 1e300;
-  if (!minAllowed) return "> " + shown(min) + (unlimited ? "" : " and <= " + shown(max));
-  return unlimited ? ">= " + shown(min) : shown(min) + " to " + shown(max);
-}
-
-// Written so that NaN, which compares false with everything, is refused.
-bool Range::holds(double value) const {
-  return (minAllowed ? value >= min : value > min) && value <= max && std::isfinite(value);
-}
-
-Range above(double min, double max) {
-  return {min, max, false};
-}
-Range between(double min, double max) {
-  return {min, max, true};
-}
-
-double readNumber(const Json& value, const Range& range, const Place& place) {
-  if (!value.is_number()) place.refuse(kind(value), "must be a number " + range.text());
+double readNumber(const Json& value, const Limits& limits, const Place& place) {
+  if (!value.is_number()) place.refuse(kind(value), "must be a number " + limits.text());
   const double number = value.get<double>();
-  if (!range.holds(number)) place.refuse(kind(value), "must be " + range.text());
+  if (!limits.hold(number)) place.refuse(kind(value), "must be " + limits.text());
   return number;
 }
 
-std::uint64_t readWhole(const Json& value, const Range& range, const Place& place) {
-  const std::string allowed = "must be a whole number " + range.text();
+std::uint64_t readWhole(const Json& value, const Limits& limits, const Place& place) {
+  const std::string allowed = "must be a whole number " + limits.text();
   if (!value.is_number()) place.refuse(kind(value), allowed);
   const double number = value.get<double>();
-  if (!range.holds(number) || std::floor(number) != number) place.refuse(kind(value), allowed);
+  if (!limits.hold(number) || std::floor(number) != number) place.refuse(kind(value), allowed);
   return value.is_number_integer() ? value.get<std::uint64_t>() : std::uint64_t(number);
 }
 
@@ -102,11 +75,11 @@ std::string readWord(const Json& value, const std::vector<std::string>& words, c
   place.refuse(kind(value), "must be one of: " + allowed);
 }
 
-Eigen::Vector3d readVector(const Json& value, const Range& range, const Place& place) {
+Eigen::Vector3d readVector(const Json& value, const Limits& limits, const Place& place) {
   if (!value.is_array() || value.size() != 3) place.refuse(kind(value), "must be a list of three numbers");
   Eigen::Vector3d vector;
   for (int axis = 0; axis < 3; ++axis) {
-    vector[axis] = readNumber(value[std::size_t(axis)], range, place.child(std::to_string(axis)));
+    vector[axis] = readNumber(value[std::size_t(axis)], limits, place.child(std::to_string(axis)));
   }
   return vector;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "demo/input_error.h"
+#include "rubble/limits.h"
 
 namespace rubble::demo {
 
@@ -36,22 +37,11 @@ std::string shown(double value);
 std::string shown(float value);
 std::string shown(const Eigen::Vector3d& value);
 
-/// Limits of a number.
-struct Range {
-  double min, max;
-  bool minAllowed = true;
-
-  std::string text() const;
-  bool holds(double value) const;
-};
-Range above(double min, double max);
-Range between(double min, double max);
-
-double readNumber(const Json& value, const Range& range, const Place& place);
-std::uint64_t readWhole(const Json& value, const Range& range, const Place& place);
+double readNumber(const Json& value, const Limits& limits, const Place& place);
+std::uint64_t readWhole(const Json& value, const Limits& limits, const Place& place);
 bool readFlag(const Json& value, const Place& place);
 std::string readWord(const Json& value, const std::vector<std::string>& words, const Place& place);
-Eigen::Vector3d readVector(const Json& value, const Range& range, const Place& place);
+Eigen::Vector3d readVector(const Json& value, const Limits& limits, const Place& place);
 void requireObject(const Json& value, const Place& place);
 void requireList(const Json& value, const Place& place);
 

@@ -148,6 +148,14 @@ void mergeFile(Document& document, const std::filesystem::path& file, int depth)
   for (const auto& [path, value] : json.items()) mergeAt(document, path, value, name);
 }
 
+// The air of the dust grid knows a weight along -y alone.
+void checkGravity(const Scene& scene, const Place& place) {
+  const Eigen::Vector3d& g = scene.gravity;
+  if (scene.dust && (g.x() != 0 || g.z() != 0 || !limits::kDustGravity.hold(-g.y())))
+    place.refuse("is [" + shown(g.x()) + ", " + shown(g.y()) + ", " + shown(g.z()) + "]",
+                 "must be [0, -g, 0] with g " + limits::kDustGravity.text() + " in a scene with dust");
+}
+
 std::filesystem::path dataFolder(const char* folder, const char* builtIn) {
   if (const char* data = std::getenv("RUBBLE_DATA")) return std::filesystem::path(data) / folder;
   return builtIn;
@@ -192,6 +200,7 @@ Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& over
   scene.name = file.stem().string();
   scene.file = file.string();
   readObject(sceneKeys(), scene, document.json, {&document.origins, ""});
+  checkGravity(scene, {&document.origins, "gravity"});
   return scene;
 }
 

@@ -3,33 +3,36 @@
 #include "demo/scene_keys.h"
 
 #include "demo/key_rows.h"
-#include "rubble/material.h"
+#include "rubble/limits.h"
 
 namespace rubble::demo {
 namespace {
 
-// Limits that no sensible scene reaches; they keep hostile numbers from turning into overflow later.
-constexpr double kFarthest = 1e5;  // [m]: further away a float holds no millimetres
-constexpr double kFastest = 1e4;   // [m/s, rad/s]
-constexpr double kHuge = 1e300;    // no limit but finiteness
-
-const Range kPosition = between(-kFarthest, kFarthest);
-const Range kLength = above(0, kFarthest);
-const Range kVelocity = between(-kFastest, kFastest);
-const Range kShare = between(0, 1);
+// What an object or the air may be is the library's to say (rubble/limits.h). These are the program's own:
+// what Bullet's bodies, the pictures and the run may be. Their lower ends stay above 0 as floats too.
+constexpr Limits kRotation = {-3600, 3600};  // [degrees]: ten turns
+constexpr Limits kMass = {1e-6, 1e9};        // of Bullet's bodies [kg]
+constexpr Limits kRestitution = {0, 1};
+constexpr Limits kBulletRate = {1, 1e5};         // [Hz]
+constexpr Limits kFrames = {1, 1e6};             // four and a half hours at 60 Hz
+constexpr Limits kFps = {1, 1e4};                // [1/s]
+constexpr Limits kSeed = {0, 9007199254740991};  // 2^53 - 1: whole numbers that JSON keeps exactly
+constexpr double kLowestSun = 1e-3;              // sine of its height; below, shadows have no end
+constexpr Limits kAmbient = {0, 10};             // factor on the usual light
 
 template <class T>
 Table<T> withPlacement(Table<T> table) {
-  table.push_back(vector<T>("position", &T::position, kPosition, "m", "where its centre is at the start"));
-  table.push_back(vector<T>("rotation_degrees", &T::rotationDegrees, between(-3600, 3600), "degrees",
+  table.push_back(
+      vector<T>("position", &T::position, limits::kPosition, "m", "where its centre is at the start"));
+  table.push_back(vector<T>("rotation_degrees", &T::rotationDegrees, kRotation, "degrees",
                             "turned about this axis by its length"));
   return table;
 }
 
 template <class T>
 Table<T> withMotion(Table<T> table) {
-  table.push_back(vector<T>("velocity", &T::velocity, kVelocity, "m/s", "at the start"));
-  table.push_back(vector<T>("spin", &T::spin, kVelocity, "rad/s", "axis times rate at the start"));
+  table.push_back(vector<T>("velocity", &T::velocity, limits::kSpeed, "m/s", "at the start"));
+  table.push_back(vector<T>("spin", &T::spin, limits::kSpin, "rad/s", "axis times rate at the start"));
   return table;
 }
 
@@ -49,35 +52,37 @@ Key<Material> materialPreset() {
 const Table<Material>& materialKeys() {
   static const Table<Material> table = {
       materialPreset(),
-      number<Material>("density", &Material::density, above(0, 1e5), "kg/m^3", "of the solid"),
-      number<Material>("youngs_modulus", &Material::youngsModulus, above(0, 1e13), "Pa",
+      number<Material>("density", &Material::density, limits::kDensity, "kg/m^3", "of the solid"),
+      number<Material>("youngs_modulus", &Material::youngsModulus, limits::kYoungsModulus, "Pa",
                        "E of the pore springs"),
-      number<Material>("tensile_strength", &Material::tensileStrength, between(0, 1e13), "Pa", "f_t"),
-      number<Material>("compressive_strength", &Material::compressiveStrength, between(0, 1e13), "Pa", "f_c")
+      number<Material>("tensile_strength", &Material::tensileStrength, limits::kStrength, "Pa", "f_t"),
+      number<Material>("compressive_strength", &Material::compressiveStrength, limits::kStrength, "Pa", "f_c")
           .must([](const Material& m) {
             return m.compressiveStrength >= m.tensileStrength
                        ? std::string()
                        : "must be at least tensile_strength, " + shown(m.tensileStrength);
           }),
-      number<Material>("breaking_angle", &Material::breakingAngle, above(0, 3.2), "rad",
+      number<Material>("breaking_angle", &Material::breakingAngle, limits::kBreakingAngle, "rad",
                        "relative rotation at which a spring breaks"),
-      number<Material>("stretch_threshold", &Material::stretchThreshold, above(0, kHuge), "",
+      number<Material>("stretch_threshold", &Material::stretchThreshold, limits::kStretchThreshold, "",
                        "relative stretch at which a spring breaks under the criterion `stretch`"),
-      number<Material>("spring_damping", &Material::springDamping, between(0, 0.5), "",
+      number<Material>("spring_damping", &Material::springDamping, limits::kSpringDamping, "",
                        "damping ratio of the springs at their highest frequency"),
-      number<Material>("contact_stiffness", &Material::contactStiffness, above(0, 100), "",
+      number<Material>("contact_stiffness", &Material::contactStiffness, limits::kContactStiffness, "",
                        "k_c = this times E h, h the element spacing"),
-      number<Material>("contact_damping", &Material::contactDamping, kShare, "", "damping ratio of contacts"),
-      number<Material>("friction", &Material::friction, between(0, 10), "",
+      number<Material>("contact_damping", &Material::contactDamping, limits::kContactDamping, "",
+                       "damping ratio of contacts"),
+      number<Material>("friction", &Material::friction, limits::kFriction, "",
                        "Coulomb's coefficient of contacts"),
-      number<Material>("bond_work_index", &Material::bondWorkIndex, above(0, 1e4), "kWh/t", "Bond's Wi"),
-      number<Material>("crush_efficiency", &Material::crushEfficiency, above(0, 1), "",
+      number<Material>("bond_work_index", &Material::bondWorkIndex, limits::kBondWorkIndex, "kWh/t",
+                       "Bond's Wi"),
+      number<Material>("crush_efficiency", &Material::crushEfficiency, limits::kCrushEfficiency, "",
                        "share of Bond's energy that an element's springs must hold to crush it"),
-      number<Material>("size_modulus", &Material::sizeModulus, above(0, 1), "",
+      number<Material>("size_modulus", &Material::sizeModulus, limits::kSizeModulus, "",
                        "m of the Gaudin-Schuhmann distribution of sizes"),
-      number<Material>("dust_radius", &Material::dustRadius, above(0, 0.01), "m",
+      number<Material>("dust_radius", &Material::dustRadius, limits::kDustRadius, "m",
                        "radius of the largest dust grain"),
-      number<Material>("debris_speed", &Material::debrisSpeed, between(0, 100), "",
+      number<Material>("debris_speed", &Material::debrisSpeed, limits::kDebrisSpeed, "",
                        "speed of debris relative to their element, over the element's own"),
   };
   return table;
@@ -118,25 +123,26 @@ const Table<SceneObject>& objectKeys() {
   static const Table<SceneObject> table = withMotion(withPlacement<SceneObject>({
       word<SceneObject, SceneObject::Shape>("shape", &SceneObject::shape, {{"box", SceneObject::Shape::Box}},
                                             "form of the solid"),
-      vector<SceneObject>("size", &SceneObject::size, kLength, "m", "full edge lengths of the box")
+      vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m", "full edge lengths of the box")
           .required(),
-      whole<SceneObject>("elements", &SceneObject::elements, 1, 1e7, "", "how many elements it is cut into"),
-      number<SceneObject>("radius", &SceneObject::radius, between(0, kFarthest), "m",
+      whole<SceneObject>("elements", &SceneObject::elements, limits::kElements, "",
+                         "how many elements it is cut into"),
+      number<SceneObject>("radius", &SceneObject::radius, limits::kElementRadius, "m",
                           "of the elements; 0 is chosen from `fill`")
           .must([](const SceneObject& o) {
             return o.radius <= o.size.minCoeff() / 2
                        ? std::string()
                        : "must be at most " + thickest(o) + ", half the smallest edge of the box";
           }),
-      number<SceneObject>("fill", &SceneObject::fill, between(0.3, 0.6), "",
+      number<SceneObject>("fill", &SceneObject::fill, limits::kFill, "",
                           "share of the solid that the spheres fill when `radius` is 0"),
       {"anchor", "[x, y, z], not zero", "", "the flat side that faces this way is tied to the world",
        [](SceneObject& target, const Json& json, const Place& place) {
-         target.anchor = readVector(json, kPosition, place);
+         target.anchor = readVector(json, limits::kPosition, place);
          if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
        },
        [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }},
-      number<SceneObject>("mass_damping", &SceneObject::massDamping, between(0, 1e4), "1/s",
+      number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                           "decay rate of the deformation; the rigid motion is not damped"),
       object<SceneObject, Material>("material", &SceneObject::material, materialKeys(), "what it is made of"),
       object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),
@@ -152,7 +158,7 @@ Key<SceneBody> hullPoints() {
           [](SceneBody& target, const Json& json, const Place& place) {
             requireList(json, place);
             for (std::size_t i = 0; i < json.size(); ++i)
-              target.points.push_back(readVector(json[i], kPosition, place.child(std::to_string(i))));
+              target.points.push_back(readVector(json[i], limits::kPosition, place.child(std::to_string(i))));
             if (target.points.size() < 4)
               place.refuse("has " + shown(double(json.size())) + " points", "must have 4 or more");
           },
@@ -164,22 +170,22 @@ std::function<bool(const SceneBody&)> is(SceneBody::Shape shape) {
 }
 
 Key<SceneBody> sphereRadius() {
-  return number<SceneBody>("radius", &SceneBody::radius, kLength, "m", "of the sphere")
+  return number<SceneBody>("radius", &SceneBody::radius, limits::kLength, "m", "of the sphere")
       .required()
       .only("sphere", is(SceneBody::Shape::Sphere));
 }
 
 Key<SceneBody> boxSize() {
-  return vector<SceneBody>("size", &SceneBody::size, kLength, "m", "full edge lengths")
+  return vector<SceneBody>("size", &SceneBody::size, limits::kLength, "m", "full edge lengths")
       .required()
       .only("box", is(SceneBody::Shape::Box));
 }
 
 Table<SceneBody> withSurface(Table<SceneBody> table) {
   table.push_back(
-      number<SceneBody>("friction", &SceneBody::friction, between(0, 10), "", "Bullet's friction"));
+      number<SceneBody>("friction", &SceneBody::friction, limits::kFriction, "", "Bullet's friction"));
   table.push_back(
-      number<SceneBody>("restitution", &SceneBody::restitution, kShare, "", "Bullet's restitution"));
+      number<SceneBody>("restitution", &SceneBody::restitution, kRestitution, "", "Bullet's restitution"));
   return table;
 }
 
@@ -193,7 +199,7 @@ const Table<SceneBody>& impactorKeys() {
       sphereRadius(),
       boxSize(),
       hullPoints().required().only("hull", is(Shape::Hull)),
-      number<SceneBody>("mass", &SceneBody::mass, above(0, 1e9), "kg", "of the body").required(),
+      number<SceneBody>("mass", &SceneBody::mass, kMass, "kg", "of the body").required(),
   })));
   return table;
 }
@@ -207,7 +213,7 @@ const Table<SceneBody>& staticKeys() {
       boxSize(),
       direction<SceneBody>("normal", &SceneBody::normal, "out of the solid half of space")
           .only("plane", is(Shape::Plane)),
-      number<SceneBody>("offset", &SceneBody::offset, kPosition, "m", "along the normal")
+      number<SceneBody>("offset", &SceneBody::offset, limits::kPosition, "m", "along the normal")
           .only("plane", is(Shape::Plane)),
   }));
   return table;
@@ -215,12 +221,13 @@ const Table<SceneBody>& staticKeys() {
 
 const Table<SceneCamera>& cameraKeys() {
   static const Table<SceneCamera> table = {
-      vector<SceneCamera>("eye", &SceneCamera::eye, kPosition, "m", "where the camera stands"),
-      vector<SceneCamera>("target", &SceneCamera::target, kPosition, "m", "what it looks at")
+      vector<SceneCamera>("eye", &SceneCamera::eye, limits::kPosition, "m", "where the camera stands"),
+      vector<SceneCamera>("target", &SceneCamera::target, limits::kPosition, "m", "what it looks at")
           .must([](const SceneCamera& c) {
-            return (c.target - c.eye).norm() > 1e-6 ? std::string() : "must differ from camera.eye";
+            const bool differ = c.target.cast<float>() != c.eye.cast<float>();
+            return differ ? std::string() : "must differ from camera.eye";
           }),
-      number<SceneCamera>("field_of_view_degrees", &SceneCamera::fieldOfViewDegrees, between(1, 170),
+      number<SceneCamera>("field_of_view_degrees", &SceneCamera::fieldOfViewDegrees, limits::kFieldOfView,
                           "degrees", "vertical"),
   };
   return table;
@@ -230,9 +237,11 @@ const Table<SceneLight>& lightKeys() {
   static const Table<SceneLight> table = {
       direction<SceneLight>("direction", &SceneLight::direction, "in which the light travels")
           .must([](const SceneLight& l) {
-            return l.direction.y() < 0 ? std::string() : "must go down: its y must be < 0";
+            return l.direction.normalized().y() < -kLowestSun
+                       ? std::string()
+                       : "must go down: its y must be below -0.001 of its length";
           }),
-      number<SceneLight>("ambient", &SceneLight::ambient, between(0, 10), "",
+      number<SceneLight>("ambient", &SceneLight::ambient, kAmbient, "",
                          "times the usual light of sky and ground"),
   };
   return table;
@@ -242,28 +251,35 @@ bool isPowerOfTwo(int n) {
   return (n & (n - 1)) == 0;
 }
 
+// As the grid sees it, whose corners are floats.
+std::string dustBox(const SceneDust& dust) {
+  const Eigen::Vector3f size = dust.max.cast<float>() - dust.min.cast<float>();
+  const bool holds = limits::kDustSide.hold(size.minCoeff()) && limits::kDustSide.hold(size.maxCoeff());
+  return holds ? "" : "must be above dust.min by " + limits::kDustSide.text() + " m in x, y and z";
+}
+
 const Table<SceneDust>& dustKeys() {
   static const Table<SceneDust> table = {
       word<SceneDust, DustBackend>(
           "backend", &SceneDust::backend,
           {{"auto", DustBackend::Auto}, {"cpu", DustBackend::Cpu}, {"gl", DustBackend::Gl}},
           "where it is computed; auto is gl on a graphics card, cpu where GL is software or absent"),
-      whole<SceneDust>("resolution", &SceneDust::resolution, 8, 256, "",
+      whole<SceneDust>("resolution", &SceneDust::resolution, limits::kDustResolution, "",
                        "cells along each axis, a power of two")
           .must([](const SceneDust& d) {
-            return isPowerOfTwo(d.resolution) ? std::string() : "must be a power of two, 8 to 256";
+            return isPowerOfTwo(d.resolution) ? std::string()
+                                              : "must be a power of two, " + limits::kDustResolution.text();
           }),
-      vector<SceneDust>("min", &SceneDust::min, kPosition, "m",
+      vector<SceneDust>("min", &SceneDust::min, limits::kPosition, "m",
                         "lower corner of the grid's box; its floor is ground"),
-      vector<SceneDust>("max", &SceneDust::max, kPosition, "m", "upper corner").must([](const SceneDust& d) {
-        return (d.max - d.min).minCoeff() > 1e-3 ? std::string() : "must be above dust.min in x, y and z";
-      }),
-      number<SceneDust>("opacity", &SceneDust::opacity, between(0, 1000), "",
+      vector<SceneDust>("max", &SceneDust::max, limits::kPosition, "m", "upper corner").must(dustBox),
+      number<SceneDust>("opacity", &SceneDust::opacity, limits::kDustOpacity, "",
                         "times the extinction of real dust, for the eye"),
-      number<SceneDust>("vorticity", &SceneDust::vorticity, between(0, 10), "",
+      number<SceneDust>("vorticity", &SceneDust::vorticity, limits::kVorticity, "",
                         "strength of vorticity confinement"),
-      number<SceneDust>("drag", &SceneDust::drag, between(0, 100), "1/s", "decay rate of the air's velocity"),
-      whole<SceneDust>("pressure_cycles", &SceneDust::pressureCycles, 1, 100, "",
+      number<SceneDust>("drag", &SceneDust::drag, limits::kDustDrag, "1/s",
+                        "decay rate of the air's velocity"),
+      whole<SceneDust>("pressure_cycles", &SceneDust::pressureCycles, limits::kPressureCycles, "",
                        "multigrid cycles of the pressure a step"),
   };
   return table;
@@ -271,7 +287,7 @@ const Table<SceneDust>& dustKeys() {
 
 const Table<SceneDebris>& debrisKeys() {
   static const Table<SceneDebris> table = {
-      whole<SceneDebris>("budget", &SceneDebris::budget, 1, 1e7, "",
+      whole<SceneDebris>("budget", &SceneDebris::budget, limits::kMaxDebris, "",
                          "pieces alive at one time; older resting ones go first"),
   };
   return table;
@@ -282,27 +298,24 @@ const Table<Scene>& allKeys() {
       list<Scene, SceneObject>("objects", &Scene::objects, objectKeys(), "what can break"),
       list<Scene, SceneBody>("impactors", &Scene::impactors, impactorKeys(), "moving rigid bodies"),
       list<Scene, SceneBody>("statics", &Scene::statics, staticKeys(), "rigid bodies that never move"),
-      vector<Scene>("gravity", &Scene::gravity, between(-1000, 1000), "m/s^2", "y is up"),
-      number<Scene>("bullet_rate", &Scene::bulletRate, between(1, 1e5), "Hz", "Bullet's ticks"),
-      whole<Scene>("frames", &Scene::frames, 1, 1e6, "", "length of the run"),
-      number<Scene>("fps", &Scene::fps, between(1, 1e4), "1/s", "frames in a second")
-          .must([](const Scene& s) {
-            return s.fps <= s.bulletRate ? std::string()
-                                         : "must be at most bullet_rate, " + shown(s.bulletRate);
-          }),
-      whole<Scene>("seed", &Scene::seed, 0, 9007199254740992.0, "",
-                   "of the packing and of the debris' sizes"),
+      vector<Scene>("gravity", &Scene::gravity, limits::kGravity, "m/s^2", "y is up"),
+      number<Scene>("bullet_rate", &Scene::bulletRate, kBulletRate, "Hz", "Bullet's ticks"),
+      whole<Scene>("frames", &Scene::frames, kFrames, "", "length of the run"),
+      number<Scene>("fps", &Scene::fps, kFps, "1/s", "frames in a second").must([](const Scene& s) {
+        return s.fps <= s.bulletRate ? std::string() : "must be at most bullet_rate, " + shown(s.bulletRate);
+      }),
+      whole<Scene>("seed", &Scene::seed, kSeed, "", "of the packing and of the debris' sizes"),
       word<Scene, Precision>("precision", &Scene::precision,
                              {{"float", Precision::Float}, {"double", Precision::Double}},
                              "of the elements' state"),
-      whole<Scene>("max_substeps_per_frame", &Scene::maxSubstepsPerFrame, 1, 1e7, "",
+      whole<Scene>("max_substeps_per_frame", &Scene::maxSubstepsPerFrame, limits::kMaxSubstepsPerFrame, "",
                    "a scene that needs more is refused"),
-      number<Scene>("substep_safety", &Scene::substepSafety, above(0, 1), "",
+      number<Scene>("substep_safety", &Scene::substepSafety, limits::kSubstepSafety, "",
                     "share of the stable substep that is used"),
       flag<Scene>("sleep", &Scene::sleep, "bodies at rest are put to sleep"),
       flag<Scene>("breaking", &Scene::breaking, "springs may break"),
       flag<Scene>("crushing", &Scene::crushing, "elements may be crushed"),
-      whole<Scene>("max_events", &Scene::maxEvents, 1, 1e8, "",
+      whole<Scene>("max_events", &Scene::maxEvents, limits::kMaxEvents, "",
                    "events kept a frame; further ones are dropped with a warning"),
       object<Scene, SceneCamera>("camera", &Scene::camera, cameraKeys(), "of the pictures"),
       object<Scene, SceneLight>("light", &Scene::light, lightKeys(), "the sun"),

@@ -10,6 +10,7 @@
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
 #include "debris/bond.h"
+#include "rubble/limits.h"
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
@@ -43,6 +44,8 @@ Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionD
                                                     definition.breaking, definition.crushing})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
       proxyMaker(definition.log) {
+  if (!limits::kMaxEvents.hold(def.maxEvents))
+    throw Error("maxEvents: is " + std::to_string(def.maxEvents) + ", must be " + limits::kMaxEvents.text());
   if (!def.debris) return;
   debris::DebrisSystemDef system;
   system.maxDebris = def.maxDebris;

@@ -5,9 +5,16 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/number_text.h"
+#include "rubble/limits.h"
+
 namespace rubble {
 
 SurfaceMesh boxMesh(const Eigen::Vector3d& size, const Eigen::Vector3d& centre) {
+  for (const double edge : size)
+    if (!limits::kLength.hold(edge))
+      throw Error("box: edge of " + base::numberText(edge) + " m is not allowed, must be " +
+                  limits::kLength.text() + " m");
   SurfaceMesh mesh;
   for (int corner = 0; corner < 8; ++corner) {  // bit 0: x, bit 1: y, bit 2: z
     const Eigen::Vector3d side(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);

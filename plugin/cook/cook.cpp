@@ -15,13 +15,13 @@
 #include "cook/signed_distance.h"
 #include "cook/site_pieces.h"
 #include "cook/springs.h"
+#include "rubble/limits.h"
 
 namespace rubble {
 namespace {
 
 using namespace cooking;
 
-constexpr std::size_t kMostElements = 10'000'000;
 // Spheres that still overlap deeper than this [2 r] after the relaxation are too many for the solid. Nearly
 // jammed but useful packings were measured at up to 0.11 (a wall 2.4 diameters thick, the ears of a bunny).
 constexpr double kDeepestOverlap = 0.2;
@@ -53,16 +53,15 @@ std::string line(const Parts&... parts) {
 }
 
 // `holds` is written such that NaN fails.
-void require(bool holds, const char* option, const auto& value, const char* allowed) {
+void require(bool holds, const char* option, const auto& value, const std::string& allowed) {
   if (!holds) throw Error(line(option, " is ", value, "; allowed: ", allowed));
 }
 
 void checkOptions(const CookOptions& options) {
-  require(options.elements >= 1 && options.elements <= kMostElements, "elements", options.elements,
-          "1 to 10000000");
-  require(options.radius >= 0 && std::isfinite(options.radius), "radius", options.radius,
-          "metres above 0, or 0 to choose it by fill");
-  require(options.fill >= 0.3 && options.fill <= 0.6, "fill", options.fill, "0.3 to 0.6");
+  require(limits::kElements.hold(options.elements), "elements", options.elements, limits::kElements.text());
+  require(limits::kElementRadius.hold(options.radius), "radius", options.radius,
+          limits::kElementRadius.text() + " m, 0 to choose it by fill");
+  require(limits::kFill.hold(options.fill), "fill", options.fill, limits::kFill.text());
   require(options.maxOverlap > 0 && options.maxOverlap <= kDeepestOverlap, "maxOverlap", options.maxOverlap,
           "above 0 to 0.2");
   require(options.maxIterations >= 1, "maxIterations", options.maxIterations, "1 and more");

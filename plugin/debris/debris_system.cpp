@@ -8,13 +8,13 @@
 
 #include "base/hash.h"
 #include "rubble/error.h"
+#include "rubble/limits.h"
 
 namespace rubble::debris {
 
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr std::uint32_t kLargestBudget = 1u << 24;
 constexpr double kLongestStep = 1e6;  // [s]: with kLargest it keeps every product of a step finite
 
 void requireRange(double value, double least, double most, const char* name) {
@@ -53,7 +53,7 @@ Eigen::Quaternionf turned(const Eigen::Quaternionf& orientation, const Eigen::Ve
 
 DebrisSystem::DebrisSystem(const DebrisSystemDef& def)
     : m_def(def), m_moving{kNone, kNone, 0}, m_resting{kNone, kNone, 0} {
-  requireRange(def.maxDebris, 1, kLargestBudget, "maxDebris");
+  requireRange(def.maxDebris, limits::kMaxDebris.low, limits::kMaxDebris.high, "maxDebris");
   requireRange(def.air.density, 0, kLargest, "density of the air");
   requireRange(def.air.viscosity, 0, kLargest, "viscosity of the air");
   requireRange(def.restitution, 0, 1, "restitution");

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "dust/definition.h"
 #include "rubble/dust.h"
+#include "rubble/limits.h"
 #include "shared/dust.h"
 
 namespace rubble {
@@ -34,33 +36,33 @@ namespace {
   throw Error("dust: " + key + ": " + value + " is out of range; allowed: " + allowed);
 }
 
-void checkRange(const char* key, float value, float low, float high, const char* allowed) {
-  if (!(value >= low && value <= high)) refuse(key, std::to_string(value), allowed);
+template <class Number>
+void checkRange(const char* key, Number value, const Limits& limits, const char* unit) {
+  if (!limits.hold(value)) refuse(key, base::numberText(value), limits.text() + unit);
 }
 
 }  // namespace
 
 void checkDefinition(const DustGridDef& def) {
   const int n = def.resolution;
-  if (n < 8 || n > 256 || (n & (n - 1)) != 0) {
-    refuse("resolution", std::to_string(n), "8, 16, 32, 64, 128, 256");
+  if (!limits::kDustResolution.hold(n) || (n & (n - 1)) != 0) {
+    refuse("resolution", std::to_string(n), "a power of two, " + limits::kDustResolution.text());
   }
   const Eigen::Vector3f size = def.max - def.min;
-  if (!def.min.allFinite() || !def.max.allFinite() ||
-      !(size.minCoeff() >= 1e-3f && size.maxCoeff() <= 1e5f)) {
-    refuse("min, max", "the box", "finite corners, each side 1e-3 to 1e5 m, max above min");
+  if (!def.min.allFinite() || !def.max.allFinite() || !limits::kDustSide.hold(size.minCoeff()) ||
+      !limits::kDustSide.hold(size.maxCoeff())) {
+    refuse("min, max", "the box",
+           "finite corners, each side " + limits::kDustSide.text() + " m, max above min");
   }
-  checkRange("grainRadius", def.grainRadius, 1e-9f, 1e-2f, "1e-9 to 1e-2 m");
-  checkRange("grainDensity", def.grainDensity, 1, 1e5f, "1 to 1e5 kg/m^3");
-  checkRange("airDensity", def.airDensity, 1e-3f, 1e3f, "1e-3 to 1e3 kg/m^3");
-  checkRange("airViscosity", def.airViscosity, 1e-7f, 1, "1e-7 to 1 Pa s");
-  checkRange("gravity", def.gravity, 0, 1e3f, "0 to 1e3 m/s^2");
-  checkRange("vorticity", def.vorticity, 0, 1, "0 to 1");
-  checkRange("drag", def.drag, 0, 1e3f, "0 to 1e3 1/s");
-  if (def.pressureCycles < 1 || def.pressureCycles > 50) {
-    refuse("pressureCycles", std::to_string(def.pressureCycles), "1 to 50");
-  }
-  if (def.threads < 1 || def.threads > 256) refuse("threads", std::to_string(def.threads), "1 to 256");
+  checkRange("grainRadius", def.grainRadius, limits::kDustRadius, " m");
+  checkRange("grainDensity", def.grainDensity, limits::kDensity, " kg/m^3");
+  checkRange("airDensity", def.airDensity, limits::kAirDensity, " kg/m^3");
+  checkRange("airViscosity", def.airViscosity, limits::kAirViscosity, " Pa s");
+  checkRange("gravity", def.gravity, limits::kDustGravity, " m/s^2");
+  checkRange("vorticity", def.vorticity, limits::kVorticity, "");
+  checkRange("drag", def.drag, limits::kDustDrag, " 1/s");
+  checkRange("pressureCycles", def.pressureCycles, limits::kPressureCycles, "");
+  checkRange("threads", def.threads, limits::kDustThreads, "");
 }
 
 float settlingSpeed(const DustGridDef& def) {

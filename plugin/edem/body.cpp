@@ -6,40 +6,36 @@
 #include <numeric>
 #include <string>
 
+#include "base/number_text.h"
 #include "edem/grid.h"
 #include "edem/stable_step.h"
 #include "rubble/error.h"
+#include "rubble/limits.h"
 
 namespace rubble::edem {
 namespace {
 
-void require(bool holds, const Material& material, const char* key, double value, const char* allowed) {
-  if (holds && std::isfinite(value)) return;
-  throw Error("material " + material.name + ": " + key + ": " + std::to_string(value) +
-              " is not allowed, must be " + allowed);
+void requireWithin(const Eigen::Vector3d& v, const Limits& limits, const char* key, const char* unit) {
+  for (const double part : v)
+    if (!limits.hold(part))
+      throw Error(std::string("destructible body: ") + key + ": " + base::numberText(part) +
+                  " is not allowed, each part must be " + limits.text() + unit);
 }
 
 void check(const BodyDef& def) {
   if (!def.asset) throw Error("destructible body: asset: none given");
   if (def.asset->elementCount() == 0) throw Error("destructible body: asset: has no elements");
   def.asset->validate();
-  const Material& m = def.material;
-  require(m.density > 0, m, "density", m.density, "> 0 kg/m^3");
-  require(m.youngsModulus > 0, m, "youngsModulus", m.youngsModulus, "> 0 Pa");
-  require(m.tensileStrength >= 0, m, "tensileStrength", m.tensileStrength, ">= 0 Pa");
-  require(m.compressiveStrength >= m.tensileStrength, m, "compressiveStrength", m.compressiveStrength,
-          ">= tensileStrength");
-  require(m.breakingAngle > 0, m, "breakingAngle", m.breakingAngle, "> 0 rad");
-  require(m.stretchThreshold >= 0, m, "stretchThreshold", m.stretchThreshold, ">= 0");
-  require(m.springDamping >= 0 && m.springDamping <= 0.5, m, "springDamping", m.springDamping, "0 to 0.5");
-  require(m.contactStiffness > 0, m, "contactStiffness", m.contactStiffness, "> 0");
-  require(m.contactDamping >= 0 && m.contactDamping <= 1, m, "contactDamping", m.contactDamping, "0 to 1");
-  require(m.friction >= 0, m, "friction", m.friction, ">= 0");
-  require(def.massDamping >= 0, m, "massDamping", def.massDamping, ">= 0 1/s");
+  rubble::check(def.material);
+  if (!limits::kMassDamping.hold(def.massDamping))
+    throw Error("destructible body: massDamping: " + base::numberText(def.massDamping) +
+                " is not allowed, must be " + limits::kMassDamping.text() + " 1/s");
   if (!def.crushEnergy.empty() && def.crushEnergy.size() != def.asset->elementCount())
     throw Error("destructible body: crushEnergy: must have one value an element");
-  if (!def.velocity.allFinite() || !def.spin.allFinite() || !def.transform.matrix().allFinite())
-    throw Error("destructible body: transform, velocity, spin: must be finite");
+  requireWithin(def.transform.translation(), limits::kPosition, "transform: origin", " m");
+  requireWithin(def.velocity, limits::kSpeed, "velocity", " m/s");
+  requireWithin(def.spin, limits::kSpin, "spin", " rad/s");
+  if (!def.transform.matrix().allFinite()) throw Error("destructible body: transform: must be finite");
   constexpr double kRounding = 1e-5;  // of a rotation that came through float
   const Eigen::Matrix3d turn = def.transform.linear();
   if (!(turn * turn.transpose()).isIdentity(kRounding) || turn.determinant() < 0)

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/hash.h"
+#include "base/number_text.h"
 #include "base/stopwatch.h"
 #include "edem/damping.h"
 #include "edem/pair_lists.h"
@@ -13,6 +14,7 @@
 #include "edem/rigid_contacts.h"
 #include "edem/stable_step.h"
 #include "rubble/error.h"
+#include "rubble/limits.h"
 
 namespace rubble::edem {
 namespace {
@@ -451,12 +453,12 @@ void SolverOf<Real>::elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box
 }  // namespace
 
 std::unique_ptr<Solver> Solver::make(Precision precision, const SolverDef& def) {
-  if (!(def.substepSafety > 0 && def.substepSafety <= 1))
-    throw Error("substepSafety: is " + std::to_string(def.substepSafety) +
-                ", must be more than 0 and at most 1");
-  if (def.maxSubstepsPerFrame < 1)
-    throw Error("maxSubstepsPerFrame: is " + std::to_string(def.maxSubstepsPerFrame) +
-                ", must be at least 1");
+  const auto require = [](const Limits& limits, const char* key, double value) {
+    if (!limits.hold(value))
+      throw Error(std::string(key) + ": is " + base::numberText(value) + ", must be " + limits.text());
+  };
+  require(limits::kSubstepSafety, "substepSafety", def.substepSafety);
+  require(limits::kMaxSubstepsPerFrame, "maxSubstepsPerFrame", def.maxSubstepsPerFrame);
   if (precision == Precision::Double) return std::make_unique<SolverOf<double>>(def);
   return std::make_unique<SolverOf<float>>(def);
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
+
+#include "rubble/limits.h"
 
 namespace rubble {
 
@@ -52,7 +55,9 @@ void check(const FrameDef& def) {
           "the camera is not finite");
   require((camera.eye - camera.target).cross(camera.up).norm() > 0,
           "the camera's eye must differ from its target and its up from the view");
-  require(camera.verticalFov > 0 && camera.verticalFov < 3.14f, "the field of view must be between 0 and pi");
+  constexpr double kDegree = std::numbers::pi / 180;
+  const Limits view = {limits::kFieldOfView.low * kDegree, limits::kFieldOfView.high * kDegree};
+  require(view.hold(camera.verticalFov), "the field of view must be 0.1 to 179 degrees");
   require(camera.nearPlane > 0 && camera.farPlane > camera.nearPlane && std::isfinite(camera.farPlane),
           "0 < nearPlane < farPlane must hold");
   const Eigen::Vector3f& sun = def.lighting->sunDirection;

@@ -13,6 +13,7 @@
 #include "render/prop.h"
 #include "render/shader.h"
 #include "render/targets.h"
+#include "rubble/limits.h"
 #include "rubble/render.h"
 
 namespace rubble {
@@ -341,8 +342,8 @@ void Renderer::setDebris(std::span<const DebrisInstance> debris) {
 }
 
 void Renderer::setDust(const DustGrid* grid, const DustLook& look) {
-  if (!(look.opacity >= 0) || !std::isfinite(look.opacity))
-    throw Error("DustLook::opacity must be 0 or more");
+  if (!limits::kDustOpacity.hold(look.opacity))
+    throw Error("DustLook::opacity must be " + limits::kDustOpacity.text());
   m_impl->grid = grid;
   m_impl->dustLook = look;
 }

@@ -4,6 +4,7 @@
 
 #include "physics/bodies.h"
 #include "rubble/error.h"
+#include "rubble/limits.h"
 
 namespace rubble::test {
 namespace {
@@ -77,7 +78,10 @@ TEST(HostileBody, BadAssetIsRefused) {
 }
 
 TEST(HostileBody, TooStiffForTheSubstepsIsRefusedWithTheStableStep) {
-  const std::string text = refusal([](edem::BodyDef& d) { d.material.youngsModulus = 1e16; });
+  const std::string text = refusal([](edem::BodyDef& d) {
+    d.material.youngsModulus = limits::kYoungsModulus.high;
+    d.material.density = limits::kDensity.low;
+  });
   EXPECT_NE(text.find("stable substep"), std::string::npos);
   EXPECT_NE(text.find("max_substeps_per_frame"), std::string::npos);
 }

@@ -143,7 +143,7 @@ TEST_F(SceneFile, NumbersOutOfRangeAreRefused) {
             "--set: objects.0.elements: is 2.5, must be a whole number 1 to 10000000");
   EXPECT_EQ(refusal(object, {{"frames", "-3"}}), "--set: frames: is -3, must be a whole number 1 to 1000000");
   EXPECT_EQ(refusal(object, {{"objects.0.size.1", "0"}}),
-            "--set: objects.0.size.1: is 0, must be > 0 and <= 100000");
+            "--set: objects.0.size.1: is 0, must be 1e-04 to 100000");
 }
 
 TEST_F(SceneFile, NotANumberIsRefused) {
@@ -170,7 +170,7 @@ TEST_F(SceneFile, ValuesThatDoNotFitEachOtherAreRefused) {
   EXPECT_EQ(refusal(R"({"dust": {"resolution": 48}})"),
             "scene.json: dust.resolution: is 48, must be a power of two, 8 to 256");
   EXPECT_EQ(refusal(R"({"dust": {"max": [1, -1, 1]}})"),
-            "scene.json: dust.max: is [1, -1, 1], must be above dust.min in x, y and z");
+            "scene.json: dust.max: is [1, -1, 1], must be above dust.min by 0.001 to 100000 m in x, y and z");
   EXPECT_EQ(refusal(R"({"camera": {"eye": [1, 2, 3], "target": [1, 2, 3]}})"),
             "scene.json: camera.target: is [1, 2, 3], must differ from camera.eye");
   EXPECT_EQ(refusal(R"({"bullet_rate": 30})"), "scene.json: fps: is 60, must be at most bullet_rate, 30");
@@ -183,14 +183,14 @@ TEST_F(SceneFile, ValuesThatDoNotFitEachOtherAreRefused) {
 
 TEST_F(SceneFile, RequiredKeysAreAskedFor) {
   EXPECT_EQ(refusal(R"({"impactors": [{"shape": "sphere", "mass": 1}]})"),
-            "scene.json: impactors.0.radius: is missing, must be given (number, > 0 and <= 100000)");
+            "scene.json: impactors.0.radius: is missing, must be given (number, 1e-04 to 100000)");
 }
 
 TEST_F(SceneFile, AnErrorNamesTheFileThatItsValueCameFrom) {
   m_folder.write("base.json", R"({"fps": -1, "dust": {"drag": 1, "opacity": 1}})");
   EXPECT_EQ(refusal(R"({"extends": "base"})"), "base.json: fps: is -1, must be 1 to 10000");
   EXPECT_EQ(refusal(R"({"extends": "base", "fps": 30, "dust": {"drag": -2}})"),
-            "scene.json: dust.drag: is -2, must be 0 to 100");
+            "scene.json: dust.drag: is -2, must be 0 to 1000");
 }
 
 TEST_F(SceneFile, CirclesOfExtendsAreRefused) {
