@@ -9,14 +9,14 @@ namespace {
 constexpr float kTurn = 0.006f;    // [rad/pixel]
 constexpr float kSteepest = 1.5f;  // [rad]: beyond, `up` is along the view
 constexpr float kApproach = 0.9f;  // factor on the distance for one notch
-constexpr float kNearest = 0.2f;   // [m]
-constexpr float kFurthest = 100;   // [m]
+constexpr float kNearest = 0.05f;  // of the distance at the start
+constexpr float kFurthest = 30;    // of the distance at the start
 
 }  // namespace
 
 OrbitCamera::OrbitCamera(const Camera& start) : m_camera(start) {
   const Eigen::Vector3f arm = start.eye - start.target;
-  m_distance = arm.norm();
+  m_distance = m_start = arm.norm();
   m_yaw = std::atan2(arm.x(), arm.z());
   m_pitch = std::clamp(std::asin(arm.y() / m_distance), -kSteepest, kSteepest);
   place();
@@ -29,7 +29,7 @@ void OrbitCamera::turn(float rightPixels, float downPixels) {
 }
 
 void OrbitCamera::approach(float notches) {
-  m_distance = std::clamp(m_distance * std::pow(kApproach, notches), kNearest, kFurthest);
+  m_distance = std::clamp(m_distance * std::pow(kApproach, notches), kNearest * m_start, kFurthest * m_start);
   place();
 }
 

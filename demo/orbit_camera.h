@@ -20,7 +20,7 @@ class OrbitCamera {
   void place();
 
   Camera m_camera;
-  float m_yaw, m_pitch, m_distance;  // [rad, rad, m]
+  float m_yaw, m_pitch, m_distance, m_start;  // [rad, rad, m, m]
 };
 
 }  // namespace rubble::demo

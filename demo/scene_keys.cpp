@@ -2,6 +2,9 @@
 // may look at what those above it have set.
 #include "demo/scene_keys.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
 #include "demo/key_rows.h"
 #include "rubble/limits.h"
 
@@ -150,9 +153,37 @@ const Table<SceneObject>& objectKeys() {
   return table;
 }
 
+// Refuses points on one place, line or plane. Bullet rounds the corners of a hull to 1e-4 of its extent, so a
+// thickness below a few of these is none.
+void requireVolume(const std::vector<Eigen::Vector3d>& points, const Place& place) {
+  constexpr double kThinnest = 1e-3;  // of the length
+  const auto farthest = [&](const auto& distance) {
+    double most = 0;
+    std::size_t which = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (const double d = distance(points[i]); d > most) most = d, which = i;
+    return std::pair(most, points[which]);
+  };
+  const Eigen::Vector3d a = points.front();
+  const auto [length, b] = farthest([&](const Eigen::Vector3d& p) { return (p - a).norm(); });
+  const std::string allowed = "must be a body at least " + shown(kThinnest) +
+                              " of its length thick (a plate: give both of its faces)";
+  if (!(length >= limits::kLength.low)) place.refuse("is one place", allowed);
+  const Eigen::Vector3d along = (b - a) / length;
+  const auto [width, c] = farthest([&](const Eigen::Vector3d& p) { return (p - a).cross(along).norm(); });
+  if (!(width >= kThinnest * length)) place.refuse("is a line", allowed);
+  const Eigen::Vector3d normal = along.cross(c - a).normalized();
+  double low = 0, high = 0;
+  for (const Eigen::Vector3d& p : points) {
+    low = std::min(low, (p - a).dot(normal));
+    high = std::max(high, (p - a).dot(normal));
+  }
+  if (!(high - low >= kThinnest * length)) place.refuse("is flat: all points lie in one plane", allowed);
+}
+
 Key<SceneBody> hullPoints() {
   return {"points",
-          "list of at least 4 [x, y, z]",
+          "list of at least 4 [x, y, z] that span a volume",
           "m",
           "corners of the hull",
           [](SceneBody& target, const Json& json, const Place& place) {
@@ -161,6 +192,7 @@ Key<SceneBody> hullPoints() {
               target.points.push_back(readVector(json[i], limits::kPosition, place.child(std::to_string(i))));
             if (target.points.size() < 4)
               place.refuse("has " + shown(double(json.size())) + " points", "must have 4 or more");
+            requireVolume(target.points, place);
           },
           [](const SceneBody&) { return std::string(); }};
 }

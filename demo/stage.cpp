@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "demo/bullet_eigen.h"
+#include "demo/picture_scale.h"
 
 namespace rubble::demo {
 namespace {
@@ -54,8 +55,34 @@ Stage::Stage(const World& world, const Scene& scene)
   for (const DestructibleBody* body : world.destruction().bodies()) {
     m_bodies.push_back(m_renderer.addBody(*body->asset(), body->model().cellJoining));
   }
+  measure(world);
+  m_grain = grainScale(m_bounds.isEmpty() ? 0 : m_bounds.diagonal().norm());
+  m_lighting.grainScale = m_grain;
   for (const btRigidBody* body : world.statics()) addProp(*body);
   update(world);
+  // With bodies the renderer's own choice is right: what flies off them casts shadows.
+  if (m_bodies.empty() && !m_bounds.isEmpty()) m_lighting.shadowBounds = m_bounds;
+}
+
+// Crushed elements stay where they fell to pieces; debris is what the bodies were.
+void Stage::measure(const World& world) {
+  m_bounds.setEmpty();
+  for (const DestructibleBody* body : world.destruction().bodies()) {
+    m_poses.resize(body->asset()->elementCount());
+    body->poses(m_poses);
+    Eigen::AlignedBox3f box;
+    for (const ElementPose& pose : m_poses) box.extend(pose.position);
+    const Eigen::Vector3f radius = Eigen::Vector3f::Constant(float(body->asset()->radius));
+    m_bounds.extend(Eigen::AlignedBox3f(box.min() - radius, box.max() + radius));
+  }
+  for (const auto& list : {world.statics(), world.impactors()}) {
+    for (const btRigidBody* body : list) {
+      if (body->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE) continue;
+      btVector3 low, high;
+      body->getAabb(low, high);
+      m_bounds.extend(Eigen::AlignedBox3f(toEigen(low), toEigen(high)));
+    }
+  }
 }
 
 void Stage::addProp(const btRigidBody& body) {
@@ -90,18 +117,20 @@ void Stage::addPlane(const btRigidBody& body) {
   constexpr btScalar kLevel = btScalar(0.999999);  // cosine of the largest tilt that the ground hides
   if (normal.y() > kLevel) {
     const btVector3 point = body.getWorldTransform() * (plane.getPlaneNormal() * plane.getPlaneConstant());
-    m_renderer.addGroundPlane(float(point.y()));
+    m_ground = float(point.y());
+    m_renderer.addGroundPlane(*m_ground);
     return;
   }
-  constexpr float kHalfWidth = 20, kHalfThickness = 0.01f;  // [m]
-  const btVector3 centre = plane.getPlaneNormal() * (plane.getPlaneConstant() - btScalar(kHalfThickness));
+  const float halfWidth = 20 * m_grain, halfThickness = 0.01f * m_grain;  // [m]
+  const btVector3 centre = plane.getPlaneNormal() * (plane.getPlaneConstant() - btScalar(halfThickness));
   const btTransform inBody(shortestArcQuat(btVector3(0, 1, 0), plane.getPlaneNormal()), centre);
-  m_props.push_back({&body, m_renderer.addBox({kHalfWidth, kHalfThickness, kHalfWidth}), inBody});
+  m_props.push_back({&body, m_renderer.addBox({halfWidth, halfThickness, halfWidth}), inBody});
 }
 
 void Stage::update(const World& world) {
   for (; m_impactorsShown < world.impactors().size(); ++m_impactorsShown)
     addProp(*world.impactors()[m_impactorsShown]);
+  measure(world);
   for (const Prop& prop : m_props) {
     const btTransform pose = prop.body->getWorldTransform() * prop.inBody;
     m_renderer.setPropPose(prop.id, toEigen(pose.getOrigin()), toEigen(pose.getRotation()));
@@ -125,7 +154,8 @@ void Stage::showDust(const DustGrid* dust, double opacity) {
 }
 
 void Stage::draw(const Camera& camera, const FrameTarget& target) {
-  m_renderer.draw(camera, m_lighting, target);
+  m_lighting.haze = hazeOf(camera.eye, m_bounds, m_grain);
+  m_renderer.draw(withPlanes(camera, m_bounds, m_ground, m_grain, m_lighting.haze), m_lighting, target);
 }
 
 Camera sceneCamera(const SceneCamera& camera) {

@@ -2,7 +2,7 @@
 // context.
 #pragma once
 
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 #include "demo/dust_setup.h"
@@ -19,6 +19,7 @@ class Stage {
   void update(const World& world);
   /// What is drawn as dust; null for none. The grid must live until the next call.
   void showDust(const DustGrid* dust, double opacity);
+  /// The camera's planes are chosen here.
   void draw(const Camera& camera, const FrameTarget& target);
 
  private:
@@ -29,12 +30,16 @@ class Stage {
   };
   void addProp(const btRigidBody& body);
   void addPlane(const btRigidBody& body);
+  void measure(const World& world);
 
   Renderer m_renderer;
   Lighting m_lighting;
   std::vector<BodyId> m_bodies;  // by DestructibleBody::id()
   std::vector<Prop> m_props;
   std::size_t m_impactorsShown = 0;
+  Eigen::AlignedBox3f m_bounds;  // of all solids as they are now, without planes [m]
+  std::optional<float> m_ground;
+  float m_grain = 1;
   std::vector<ElementPose> m_poses;
   std::vector<DebrisInstance> m_debris;
 };

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "demo/input_error.h"
+#include "demo/scene_advice.h"
 
 namespace rubble::demo {
 namespace {
@@ -40,6 +41,17 @@ std::unique_ptr<btCollisionShape> makeShape(const SceneBody& def) {
   return hull;
 }
 
+// The library counts bodies in the order in which they were added, which is that of the scene's objects.
+std::string withObjects(std::string text) {
+  if (text.starts_with("body ")) text.replace(0, 5, "object ");
+  return text;
+}
+
+LogFunction inWordsOfTheScene(const LogFunction& log) {
+  if (!log) return log;
+  return [log](LogLevel level, const std::string& line) { log(level, withObjects(line)); };
+}
+
 DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   DestructionDef def;
   def.precision = scene.precision;
@@ -52,7 +64,7 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   def.breaking = scene.breaking;
   def.crushing = scene.crushing;
   def.seed = scene.seed;
-  def.log = log;
+  def.log = inWordsOfTheScene(log);
   return def;
 }
 
@@ -98,6 +110,7 @@ World::World(const Scene& scene, const LogFunction& log)
 }
 
 World::World(const Scene& scene, const Assets& assets, const LogFunction& log) : World(scene, log) {
+  adviseOnDust(scene, log);
   for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
   for (const SceneBody& body : scene.impactors) addImpactor(body);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -157,7 +170,7 @@ void World::step() {
   } catch (const Error& error) {
     throw RunStopped(error.what());
   }
-  if (!m_destruction->failure().empty()) throw RunStopped(m_destruction->failure());
+  if (!m_destruction->failure().empty()) throw RunStopped(withObjects(m_destruction->failure()));
 }
 
 void World::finishTick(double seconds) {

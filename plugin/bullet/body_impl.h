@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bullet/coupler_constraint.h"
@@ -23,6 +24,8 @@ struct DestructibleBody::Impl {
   std::unique_ptr<debris::Spawner> spawner;
   std::vector<double> bondConstants;     ///< C_B of each element [J m^0.5]
   std::vector<std::uint8_t> wasRoot;     ///< elements that were the lowest of a fragment
+  std::string name;                      ///< for messages: "body 3 (concrete, 2 m tall)"
+  std::string advice;                    ///< why it will not last; empty if nothing is known
   double calmTime = 0;                   ///< since an element was last faster than calm [s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };

@@ -127,13 +127,17 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
       return;
     }
   }
-  const int type = shape.getShapeType();
+  // Once for each kind, and once more for the first of it that has no volume.
+  const bool flat = shape.isConvex();
+  const int type = 2 * shape.getShapeType() + (flat ? 1 : 0);
   if (std::find(m_refused.begin(), m_refused.end(), type) != m_refused.end()) return;
   m_refused.push_back(type);
   if (m_log)
-    m_log(LogLevel::Warning,
-          std::string("shape ") + shape.getName() +
-              " does not touch destructible bodies: only convex shapes, planes and compounds of them do");
+    m_log(LogLevel::Warning, std::string("shape ") + shape.getName() +
+                                 " does not touch destructible bodies: " +
+                                 (flat ? "it has no volume (its points lie in a plane, on a line or on one "
+                                         "place); give it thickness"
+                                       : "only convex shapes, planes and compounds of them do"));
 }
 
 edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {

@@ -9,7 +9,9 @@
 #include "base/stopwatch.h"
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
+
 #include "debris/bond.h"
+#include "edem/own_weight.h"
 #include "rubble/limits.h"
 
 namespace rubble {
@@ -84,6 +86,10 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
     mass += m.density * volume;
   }
   impl->id = solver->addBody(elements, toEigen(world.getGravity()));
+  impl->name = edem::bodyName(impl->id, m, *bodyDef.asset, elements.transform, toEigen(world.getGravity()));
+  impl->advice = edem::sizeAndWeightAdvice(
+      {*bodyDef.asset, m, bodyDef.model, elements.transform, toEigen(world.getGravity()), bodyDef.anchored});
+  if (!impl->advice.empty() && def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
   impl->world = this;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
@@ -187,7 +193,7 @@ void Destruction::Impl::advance(double dt) {
   }
   times.neighbours += solver->report().listing;
   times.edem -= solver->report().listing;
-  failure = solver->failure();
+  if (!solver->failure().empty()) failSolver();
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
@@ -340,6 +346,26 @@ void Destruction::Impl::bookEvents() {
   }
 }
 
+// The first failure counts.
+void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
+  if (!failure.empty()) return;
+  const DestructibleBody::Impl& own = body.impl();
+  failure =
+      own.name + ": " + what + "; " +
+      (own.advice.empty() ? "lower substepSafety, or look for units other than metres, seconds, kilograms"
+                          : own.advice);
+}
+
+// The solver's message begins with the body, "body 3: ".
+void Destruction::Impl::failSolver() {
+  const std::string& text = solver->failure();
+  for (const DestructibleBody* body : bodies) {
+    const std::string head = "body " + std::to_string(body->id()) + ": ";
+    if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
+  }
+  failure = text;
+}
+
 // Crushed elements become debris and dust (paper 3.2, 3.3).
 void Destruction::Impl::breakElements() {
   BT_PROFILE("Rubble break elements");
@@ -350,7 +376,11 @@ void Destruction::Impl::breakElements() {
     DestructibleBody::Impl& own = body->impl();
     ++crushed;
     c.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
-    own.spawner->spawn(c, own.asset->cellFaces(c.element), batch);
+    try {
+      own.spawner->spawn(c, own.asset->cellFaces(c.element), batch);
+    } catch (const Error& error) {  // numbers that have run away
+      return fail(*body, "element " + std::to_string(c.element) + " crushed: " + error.what());
+    }
     if (debrisSystem) {
       debrisSystem->add(batch.pieces);
       ledgerBook.addGiven(batch.energyGiven);
@@ -391,7 +421,12 @@ void Destruction::Impl::stepDebris(double dt) {
   }
   wakeBoxes.clear();
   if (debrisSystem->movingCount() > 0) {
-    debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
+    try {
+      debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
+    } catch (const Error& error) {  // numbers that have run away
+      failure = error.what();
+      return;
+    }
     surroundings->push(debrisSystem->surfaceImpulses());
   }
   const debris::Exchange exchange = debrisSystem->takeExchange();

@@ -83,6 +83,8 @@ struct Destruction::Impl {
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();
+  void failSolver();
+  void fail(const DestructibleBody& body, const std::string& what);
   void stepDebris(double dt);
   void followSleep();
   void updateSleep(double dt);

@@ -125,6 +125,10 @@ bool prestress(Body<Real>& body, const Eigen::Vector3d& gravity, double* residua
         rotation[i] = (Quat<double>(Eigen::AngleAxisd(angle, theta / angle)) * rotation[i]).normalized();
     }
   }
+  // What cannot carry its weight has no such state: the corrections run away, and the body starts unstressed.
+  const double size = body.asset->diagonal();
+  for (const Vec3<double>& shift : u)
+    if (!(shift.norm() <= size)) return false;
   if (residual) {
     const Vector left = residualForce(body, gravity, u, rotation);
     *residual = 0;

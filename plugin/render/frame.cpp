@@ -9,9 +9,24 @@
 
 namespace rubble {
 
+namespace {
+
+// `up`, or where that is along the view what it becomes when one who looks along -z tilts the head: -z for a
+// look down, z for a look up. With another axis up, the axis that is least along the view.
+Eigen::Vector3f usableUp(const Eigen::Vector3f& up, const Eigen::Vector3f& back) {
+  constexpr float kAlong = 1e-3f;  // sine of the angle to the view; less would turn the picture by rounding
+  const Eigen::Vector3f unit = up.normalized();
+  if (unit.cross(back).norm() > kAlong) return unit;
+  const float side = unit.dot(back) > 0 ? -1.f : 1.f;
+  const bool isZ = std::abs(back.z()) < 0.5f;
+  return side * (isZ ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX());
+}
+
+}  // namespace
+
 Eigen::Matrix4f Camera::view() const {
   const Eigen::Vector3f back = (eye - target).normalized();
-  const Eigen::Vector3f right = up.cross(back).normalized();
+  const Eigen::Vector3f right = usableUp(up, back).cross(back).normalized();
   Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
   m.block<1, 3>(0, 0) = right;
   m.block<1, 3>(1, 0) = back.cross(right);
@@ -53,8 +68,8 @@ void check(const FrameDef& def) {
           "the picture must be 1 to 16384 pixels wide and high");
   require(camera.eye.allFinite() && camera.target.allFinite() && camera.up.allFinite(),
           "the camera is not finite");
-  require((camera.eye - camera.target).cross(camera.up).norm() > 0,
-          "the camera's eye must differ from its target and its up from the view");
+  require(camera.eye != camera.target, "the camera's eye must differ from its target");
+  require(camera.up.norm() > 0, "the camera's up has no direction");
   constexpr double kDegree = std::numbers::pi / 180;
   const Limits view = {limits::kFieldOfView.low * kDegree, limits::kFieldOfView.high * kDegree};
   require(view.hold(camera.verticalFov), "the field of view must be 0.1 to 179 degrees");
@@ -64,6 +79,9 @@ void check(const FrameDef& def) {
   require(sun.allFinite() && sun.y() > 0, "the sun must stand above the horizon");
   require(def.lighting->exposure > 0 && std::isfinite(def.lighting->exposure),
           "the exposure must be positive");
+  require(def.lighting->grainScale > 0 && std::isfinite(def.lighting->grainScale),
+          "the scale of the grain must be positive");
+  require(def.lighting->haze > 0 && std::isfinite(def.lighting->haze), "the haze must be positive");
 }
 
 }  // namespace
@@ -109,7 +127,7 @@ shared::Frame makeFrame(const FrameDef& def) {
   frame.skyZenith = withW(light.skyZenith, 0);
   frame.skyHorizon = withW(light.skyHorizon, 0);
   frame.viewport = {width, height, 1 / width, 1 / height};
-  frame.tone = {light.exposure, light.toneCurve ? 1.f : 0.f, 0, 0};
+  frame.tone = {light.exposure, light.toneCurve ? 1.f : 0.f, light.grainScale, light.haze};
   frame.dustMin.setZero();
   frame.dustMax.setZero();
   frame.dustColour.setZero();

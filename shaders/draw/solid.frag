@@ -9,14 +9,15 @@ layout(location = RUBBLE_OUTER_UNIFORM) uniform vec4 uOuter;  // colour, gloss
 layout(location = RUBBLE_INNER_UNIFORM) uniform vec4 uInner;  // colour of fracture faces
 layout(location = 0) out vec4 oColour;
 
-// Periods of the grain [1/m]: stains of a hand's width, sand of a millimetre.
+// Periods of the grain [1/m] where its scale is 1: stains of a hand's width, sand of a millimetre.
 const float kStains = 1.3;
 const float kSand = 7.0;
 
 void main() {
   float inner = vRest.w;
-  vec4 stains = texture(uNoise, vRest.xyz * kStains);
-  vec4 sand = texture(uNoise, vRest.xyz * kSand);
+  vec3 rest = vRest.xyz / uFrame.tone.z;
+  vec4 stains = texture(uNoise, rest * kStains);
+  vec4 sand = texture(uNoise, rest * kSand);
   float chalk = 1.0 - uOuter.w;
   vec3 normal = normalize(normalize(vNormal) + (sand.rgb - 0.5) * chalk * mix(0.16, 0.8, inner));
   vec3 albedo = mix(uOuter.rgb, uInner.rgb, inner);

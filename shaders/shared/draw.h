@@ -71,7 +71,7 @@ struct Frame {
   vec4 skyZenith;
   vec4 skyHorizon;
   vec4 viewport;    // width, height, 1 / width, 1 / height of the full picture
-  vec4 tone;        // x exposure, y 1 with the tone curve
+  vec4 tone;        // x exposure, y 1 with the tone curve, z size of the grain, w haze [1/m]
   vec4 dustMin;     // xyz corner of the dust grid [m]; w steps of a ray
   vec4 dustMax;     // xyz the other corner; w 1 when there is a grid
   vec4 dustColour;  // rgb albedo; w step of the light volume along the sunlight [m]

@@ -24,8 +24,8 @@ namespace rubble {
 struct Camera {
   Eigen::Vector3f eye = Eigen::Vector3f(2, 1.5f, 3);     ///< [m]
   Eigen::Vector3f target = Eigen::Vector3f(0, 0.5f, 0);  ///< [m], must differ from the eye
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();         ///< must not be along the view
-  float verticalFov = 0.7f;                              ///< full angle [rad], 0 to pi
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();         ///< any length; along the view another is taken
+  float verticalFov = 0.7f;                              ///< full angle [rad], limits::kFieldOfView
   float nearPlane = 0.05f;                               ///< [m], > 0
   float farPlane = 200;                                  ///< [m], > nearPlane
 
@@ -45,6 +45,12 @@ struct Lighting {
   Eigen::Vector3f skyHorizon = Eigen::Vector3f(0.46f, 0.53f, 0.61f);     ///< background
   float exposure = 0.62f;  ///< factor in front of the tone curve, dimensionless
   bool toneCurve = true;   ///< false: light is clamped to [0, 1] and only gamma is applied (measurements)
+  /// Size of the grain of solids and floor and of the floor's joints, over that of a scene of metres (joints
+  /// every metre), dimensionless, > 0.
+  float grainScale = 1;
+  /// Share of the floor's light that is lost in haze per metre, > 0 [1/m]. The air is clear up to 0.3 / haze,
+  /// and the floor reaches 6 / haze from the eye; give the camera a far plane beyond.
+  float haze = 0.05f;
   /// Only what is inside this box casts shadows. Unset: the bodies where they were first placed, and a
   /// diagonal of room around them.
   std::optional<Eigen::AlignedBox3f> shadowBounds;
@@ -63,7 +69,7 @@ struct PropLook {
 };
 
 struct DustLook {
-  float opacity = 1;  ///< factor on the mass extinction, >= 0, dimensionless; 1 is real dust
+  float opacity = 1;  ///< factor on the mass extinction, 0 to 1000, dimensionless; 1 is real dust
   Eigen::Vector3f colour = Eigen::Vector3f(0.8f, 0.755f, 0.69f);  ///< single-scattering albedo, linear RGB
 };
 
