@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -115,6 +116,72 @@ TEST_F(Pictures, AFullDiskLeavesWholeFilesOnly) {
       EXPECT_EQ(width, 160);
     }
   }
+}
+
+// A cube and its picture, from a camera that stands by it as one stands by a cube of a metre.
+class SceneOfAnySize : public test::GlTest {
+ protected:
+  // Share of the pixels that the object or its shadow changes: drawn, against the same scene with the object
+  // mirrored at the eye, behind which it sets the same scale.
+  double shareSeen(double metres, const std::string& eye, const std::string& target) {
+    const auto vector = [&](double x, double y, double z) {
+      return nlohmann::json({x * metres, y * metres, z * metres}).dump();
+    };
+    const auto at = [&](const std::string& position) {
+      const demo::Scene scene =
+          demo::loadScene(m_folder.write("cube.json", R"({"objects": [{"size": [1, 1, 1], "elements": 8}],
+                                          "statics": [{"shape": "plane"}], "max_substeps_per_frame": 10000000})"),
+                          {{"objects.0.size", vector(1, 1, 1)},
+                           {"objects.0.position", position},
+                           {"camera.eye", scaled(eye, metres)},
+                           {"camera.target", scaled(target, metres)}});
+      const demo::World world(scene, demo::cookObjects(scene, {}, strictLog()));
+      demo::Stage stage(world, scene);
+      Framebuffer framebuffer(kWidth, kHeight);
+      stage.draw(demo::sceneCamera(scene.camera), framebuffer.target());
+      return framebuffer.readPixels();
+    };
+    const auto e = nlohmann::json::parse(eye).get<std::array<double, 3>>();
+    const Image with = at(vector(0, 0.5, 0)), without = at(vector(2 * e[0], 2 * e[1] - 0.5, 2 * e[2]));
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < with.pixels.size(); i += 4) {
+      bool differs = false;
+      for (std::size_t c = i; c < i + 3; ++c)
+        differs = differs || std::abs(with.pixels[c] - without.pixels[c]) > 16;
+      changed += differs;
+    }
+    return double(changed) / (kWidth * kHeight);
+  }
+  static std::string scaled(const std::string& list, double factor) {
+    nlohmann::json json = nlohmann::json::parse(list);
+    for (auto& part : json) part = part.get<double>() * factor;
+    return json.dump();
+  }
+
+  static constexpr int kWidth = 160, kHeight = 90;
+  TestFolder m_folder;
+};
+
+// The same picture at every size, so the cube of a metre says how much is to be seen: a cube covers about a
+// tenth, and its shadow some more.
+TEST_F(SceneOfAnySize, IsSeenFromOneCentimetreToAKilometre) {
+  const double metre = shareSeen(1, "[1.5, 1.1, 2.6]", "[0, 0.45, 0]");
+  EXPECT_GT(metre, 0.08);
+  for (const double metres : {0.01, 0.1, 10.0, 300.0, 1000.0})
+    EXPECT_NEAR(shareSeen(metres, "[1.5, 1.1, 2.6]", "[0, 0.45, 0]"), metre, 0.2 * metre) << metres << " m";
+}
+
+// A cube of 30 m from 430 m away covers (1 / (2 x 14.3 x tan 22.5 deg))^2 x 9 / 16 = 0.004 of the picture.
+TEST_F(SceneOfAnySize, IsSeenFromFarAway) {
+  EXPECT_GT(shareSeen(30, "[0, 3, 14]", "[0, 0.5, 0]"), 0.0035);
+}
+
+// Straight down the cube of a metre seen from 4 m above its lid covers (1 m / (2 x 4 m x tan 22.5 deg))^2 of
+// the picture's height squared: 0.0911 x 9 / 16 = 0.051, and its shadow comes to it.
+TEST_F(SceneOfAnySize, IsSeenFromStraightAboveAndBelow) {
+  EXPECT_GT(shareSeen(1, "[0, 5, 0]", "[0, 0, 0]"), 0.045);
+  EXPECT_LT(shareSeen(1, "[0, 5, 0]", "[0, 0, 0]"), 0.2);
+  EXPECT_GT(shareSeen(1, "[0, -4, 0]", "[0, 0, 0]"), 0.045);
 }
 
 // The scene `wall` with its dust on both back ends. The mechanics do not depend on the dust, so one world
