@@ -90,6 +90,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->advice = edem::sizeAndWeightAdvice(
       {*bodyDef.asset, m, bodyDef.model, elements.transform, toEigen(world.getGravity()), bodyDef.anchored});
   if (!impl->advice.empty() && def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
+  if (bodyDef.anchored) logPrestress(impl->id, bodyDef);
   impl->world = this;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
@@ -110,6 +111,19 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   bodies.push_back(body);
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
   return body;
+}
+
+// Says why an anchored body does not stand still from the start.
+void Destruction::Impl::logPrestress(std::uint32_t id, const DestructibleBodyDef& bodyDef) const {
+  const edem::PrestressResult& result = solver->prestressed(id);
+  const std::string name = "destructible body " + std::to_string(id) + " (" + bodyDef.material.name + ") ";
+  if (!def.log) return;
+  if (bodyDef.asset->anchors.empty()) {
+    def.log(LogLevel::Info, name + "is to be anchored, but its asset has no anchors: it is free");
+  } else if (!result.reason.empty()) {
+    def.log(LogLevel::Warning,
+            name + "is anchored but was not pre-stressed: " + result.reason + "; it will settle by itself");
+  }
 }
 
 void Destruction::Impl::forget(DestructibleBody& body) {

@@ -1,20 +1,44 @@
 #include "edem/prestress.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include "edem/rest_solver.h"
 
 namespace rubble::edem {
 namespace {
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::SparseMatrix<double>;
+using Eigen::VectorXd;
 
-Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
+// Below, a sparse Cholesky takes milliseconds, and is exact where conjugate gradients are slow (chains).
+constexpr std::size_t kDirectElements = 256;
+// Each gains several digits at the strains of a standing object; one near buckling needs many.
+constexpr int kMostCorrections = 50;
+// A correction that leaves more than this share of the residual calls for the stiffness of the present state:
+// a slender body that bends by some degrees has another one than at rest.
+constexpr double kSlow = 0.1;
+// Rotations since the stiffness was taken that change nothing in it [rad].
+constexpr double kSameAngle = 1e-5;
+// Part of a residual that one correction leaves: less than what the finite rotations add.
+constexpr double kSolveShare = 1e-5;
+
+constexpr const char* kIndefinite = "its stiffness is not positive definite";
+
+std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text(const char* format, ...) {
+  char line[256];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(line, sizeof line, format, values);
+  va_end(values);
+  return line;
 }
 
 template <class Real>
@@ -27,123 +51,215 @@ bool everyFragmentAnchored(const Body<Real>& body) {
   return true;
 }
 
-// Stiffness of the springs at rest: dx = u_K - u_I - (theta_I + theta_K) x d / 2, relative rotation theta_K
-// - theta_I.
+// What the solution needs of a body, in double and in the asset's axes.
+struct Problem {
+  RestStiffness stiffness;
+  std::vector<double> mass;  // [kg]; 0 for crushed elements
+  double radius = 0;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  double size = 0;  // diagonal of the asset [m]
+};
+
 template <class Real>
-Matrix assemble(const Body<Real>& body) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(body.springs.size() * 144);
+Problem problemOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
+  Problem p;
+  p.stiffness.points = body.restCentred;
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
     if (!body.intact[s]) continue;
     const Spring<Real>& spring = body.springs[s];
-    const Eigen::Matrix3d halfArm =
-        0.5 * cross(spring.rest.template cast<double>());  // -(theta x d)/2 = halfArm theta
-    Eigen::Matrix<double, 6, 12> b = Eigen::Matrix<double, 6, 12>::Zero();
-    b.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
-    b.block<3, 3>(0, 3) = halfArm;
-    b.block<3, 3>(0, 6) = Eigen::Matrix3d::Identity();
-    b.block<3, 3>(0, 9) = halfArm;
-    b.block<3, 3>(3, 3) = -Eigen::Matrix3d::Identity();
-    b.block<3, 3>(3, 9) = Eigen::Matrix3d::Identity();
-    Eigen::Matrix<double, 6, 1> k;
-    k << Eigen::Vector3d::Constant(double(spring.stiffness)),
-        Eigen::Vector3d::Constant(double(spring.rotational));
-    const Eigen::Matrix<double, 12, 12> block = b.transpose() * k.asDiagonal() * b;
-    const int ends = body.isAnchor(s) ? 1 : 2;
-    const std::array<Eigen::Index, 2> base = {6 * Eigen::Index(spring.first),
-                                              6 * Eigen::Index(spring.second)};
-    for (int p = 0; p < ends; ++p)
-      for (int q = 0; q < ends; ++q)
-        for (int i = 0; i < 6; ++i)
-          for (int j = 0; j < 6; ++j)
-            entries.emplace_back(base[std::size_t(p)] + i, base[std::size_t(q)] + j,
-                                 block(6 * p + i, 6 * q + j));
+    p.stiffness.links.push_back({spring.first, body.isAnchor(s) ? kNoElement : spring.second,
+                                 double(spring.stiffness), double(spring.rotational), body.springRest[s],
+                                 0.5 * body.springRest[s], 0.5 * body.springRest[s]});
   }
-  const Eigen::Index unknowns = 6 * Eigen::Index(body.elementCount());
-  // A lone chain without k_rot has modes without stiffness; a crushed element has none at all. A tiny
-  // diagonal keeps the factor definite and moves the solution by the same tiny share.
-  double largest = 0;
-  for (const auto& e : entries) largest = std::max(largest, std::abs(e.value()));
-  for (Eigen::Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 1e-12 * largest);
-  Matrix k(unknowns, unknowns);
-  k.setFromTriplets(entries.begin(), entries.end());
-  return k;
+  setShift(p.stiffness);
+  p.mass = body.mass;
+  for (std::size_t i = 0; i < p.mass.size(); ++i)
+    if (!body.alive[i]) p.mass[i] = 0;
+  p.radius = double(body.radius);
+  p.gravity = gravity;
+  p.size = body.asset->diagonal();
+  return p;
 }
 
-// Force and torque on every element in the present state, gravity included; all in double.
-template <class Real>
-Vector residualForce(const Body<Real>& body, const Eigen::Vector3d& gravity,
-                     const std::vector<Vec3<double>>& u, const std::vector<Quat<double>>& rotation) {
-  Vector force = Vector::Zero(6 * Eigen::Index(body.elementCount()));
-  for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i]) force.segment<3>(6 * Eigen::Index(i)) = body.mass[i] * gravity;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& own = body.springs[s];
+// Force and torque on every element in the given state, gravity included.
+VectorXd residualForce(const Problem& p, const StaticRest& rest) {
+  VectorXd force = VectorXd::Zero(6 * Eigen::Index(p.mass.size()));
+  for (std::size_t i = 0; i < p.mass.size(); ++i)
+    force.segment<3>(6 * Eigen::Index(i)) = p.mass[i] * p.gravity;
+  for (const RestLink& l : p.stiffness.links) {
     Spring<double> spring{};
-    spring.rest = own.rest.template cast<double>();
-    spring.stiffness = double(own.stiffness);
-    spring.rotational = double(own.rotational);
+    spring.rest = l.rest;
+    spring.stiffness = l.stiffness;
+    spring.rotational = l.rotational;
     const auto end = [&](std::uint32_t i) {
       SpringEnd<double> e;
-      e.displacement = u[i];
-      e.turn = rotation[i];
+      if (i == kNoElement) return e;
+      e.displacement = rest.displacements[i];
+      e.turn = rest.rotations[i];
       return e;
     };
-    const bool anchor = body.isAnchor(s);
-    const SpringLoad<double> load =
-        springLoad(spring, end(own.first), anchor ? SpringEnd<double>{} : end(own.second));
-    force.segment<3>(6 * Eigen::Index(own.first)) += load.elastic;
-    force.segment<3>(6 * Eigen::Index(own.first) + 3) +=
-        load.armFirst.cross(load.elastic) + load.elasticTorque;
-    if (anchor) continue;
-    force.segment<3>(6 * Eigen::Index(own.second)) -= load.elastic;
-    force.segment<3>(6 * Eigen::Index(own.second) + 3) +=
+    const SpringLoad<double> load = springLoad(spring, end(l.first), end(l.second));
+    force.segment<3>(6 * Eigen::Index(l.first)) += load.elastic;
+    force.segment<3>(6 * Eigen::Index(l.first) + 3) += load.armFirst.cross(load.elastic) + load.elasticTorque;
+    if (l.second == kNoElement) continue;
+    force.segment<3>(6 * Eigen::Index(l.second)) -= load.elastic;
+    force.segment<3>(6 * Eigen::Index(l.second) + 3) +=
         load.armSecond.cross(load.elastic) - load.elasticTorque;
   }
   return force;
 }
 
+// NaN if anything is.
+double worstOf(const Problem& p, const VectorXd& force) {
+  if (!force.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  double worst = 0;
+  for (std::size_t i = 0; i < p.mass.size(); ++i) {
+    if (!(p.mass[i] > 0)) continue;
+    const double weight = p.mass[i] * p.gravity.norm();
+    const auto own = force.segment<6>(6 * Eigen::Index(i));
+    worst = std::max({worst, own.head<3>().norm() / weight, own.tail<3>().norm() / (weight * p.radius)});
+  }
+  return worst;
+}
+
+struct Largest {
+  double displacement = 0;  // of the state [m]
+  double angle = 0;         // of the step [rad]
+};
+
+Largest advance(StaticRest& rest, const VectorXd& step) {
+  Largest largest;
+  for (std::size_t i = 0; i < rest.displacements.size(); ++i) {
+    rest.displacements[i] += step.segment<3>(6 * Eigen::Index(i));
+    largest.displacement = std::max(largest.displacement, rest.displacements[i].norm());
+    const Eigen::Vector3d theta = step.segment<3>(6 * Eigen::Index(i) + 3);
+    const double angle = theta.norm();
+    largest.angle = std::max(largest.angle, angle);
+    if (angle > 0)
+      rest.rotations[i] =
+          (Quat<double>(Eigen::AngleAxisd(angle, theta / angle)) * rest.rotations[i]).normalized();
+  }
+  return largest;
+}
+
+void turnHalves(RestStiffness& k, const StaticRest& rest) {
+  for (RestLink& l : k.links) {
+    l.halfFirst = 0.5 * (l.rest + turned(rest.rotations[l.first], l.rest));
+    if (l.second != kNoElement) l.halfSecond = 0.5 * (l.rest + turned(rest.rotations[l.second], l.rest));
+  }
+}
+
+std::unique_ptr<RestSolver> solverOf(const Problem& p, RestMethod method) {
+  const bool direct =
+      method == RestMethod::Direct || (method == RestMethod::Chosen && p.mass.size() <= kDirectElements);
+  return direct ? directSolver(p.stiffness) : groupedSolver(p.stiffness);
+}
+
+PrestressResult solve(Problem p, RestMethod method, StaticRest& rest) {
+  PrestressResult result;
+  result.outcome = PrestressOutcome::Failed;
+  rest.displacements.assign(p.mass.size(), Eigen::Vector3d::Zero());
+  rest.rotations.assign(p.mass.size(), Quat<double>::Identity());
+  std::unique_ptr<RestSolver> solver = solverOf(p, method);
+  if (!solver) {
+    result.reason = kIndefinite;
+    return result;
+  }
+  VectorXd force = residualForce(p, rest), step;
+  result.residual = worstOf(p, force);
+  double angle = 0;  // that the elements have turned since the stiffness was taken [rad]
+  int before = 0;    // iterations of solvers that were given up
+  while (!(result.residual <= kPrestressTolerance)) {
+    if (result.corrections == kMostCorrections) {
+      result.reason =
+          text("%.3g of an element's weight is left unbalanced after %d corrections, allowed is %g",
+               result.residual, kMostCorrections, kPrestressTolerance);
+      return result;
+    }
+    ++result.corrections;
+    const bool solved = solver->solve(force, kSolveShare, step);
+    result.iterations = before + solver->iterations();
+    if (!solved) {
+      result.reason = text("its static state was not found in %d iterations", result.iterations);
+      return result;
+    }
+    const Largest largest = advance(rest, step);
+    if (!(largest.displacement <= p.size)) {
+      result.reason = text(
+          "under its weight its elements would move %.3g m, more than its size of %.3g m: it is too heavy "
+          "for "
+          "its stiffness",
+          largest.displacement, p.size);
+      return result;
+    }
+    force = residualForce(p, rest);
+    const double last = std::exchange(result.residual, worstOf(p, force));
+    angle += largest.angle;
+    if (!(result.residual > kSlow * last) || angle < kSameAngle) continue;
+    turnHalves(p.stiffness, rest);
+    before = result.iterations;
+    angle = 0;
+    solver.reset();
+    solver = solverOf(p, method);
+    if (!solver) {
+      result.reason = kIndefinite;
+      return result;
+    }
+  }
+  result.outcome = PrestressOutcome::Done;
+  return result;
+}
+
+template <class Real>
+void write(Body<Real>& body, const StaticRest& rest) {
+  const Quat<double> turn(body.turn);
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    body.displacement[i] = (turn * rest.displacements[i]).template cast<Real>();
+    body.rotation[i] = (turn * rest.rotations[i] * turn.conjugate()).template cast<Real>();
+  }
+}
+
 }  // namespace
 
 template <class Real>
-bool prestress(Body<Real>& body, const Eigen::Vector3d& gravity, double* residual) {
-  if (body.anchorsIntact == 0 || !everyFragmentAnchored(body)) return false;
-  const Eigen::SimplicialLDLT<Matrix> factor(assemble(body));
-  if (factor.info() != Eigen::Success) return false;
-  std::vector<Vec3<double>> u(body.elementCount(), Vec3<double>::Zero());
-  std::vector<Quat<double>> rotation(body.elementCount(), Quat<double>::Identity());
-  constexpr int kCorrections = 4;  // each gains several digits at the strains of a standing object
-  for (int n = 0; n < kCorrections; ++n) {
-    const Vector step = factor.solve(residualForce(body, gravity, u, rotation));
-    if (!step.allFinite()) return false;
-    for (std::size_t i = 0; i < body.elementCount(); ++i) {
-      u[i] += step.segment<3>(6 * Eigen::Index(i));
-      const Eigen::Vector3d theta = step.segment<3>(6 * Eigen::Index(i) + 3);
-      const double angle = theta.norm();
-      if (angle > 0)
-        rotation[i] = (Quat<double>(Eigen::AngleAxisd(angle, theta / angle)) * rotation[i]).normalized();
-    }
+PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, StaticRestCache* cache,
+                          RestMethod method) {
+  PrestressResult result;
+  if (body.anchorsIntact == 0 || !everyFragmentAnchored(body)) {
+    result.outcome = PrestressOutcome::NotAnchored;
+    result.reason = body.anchorsIntact == 0 ? "it has no anchors" : "a part of it hangs on no anchor";
+    return result;
   }
-  // What cannot carry its weight has no such state: the corrections run away, and the body starts unstressed.
-  const double size = body.asset->diagonal();
-  for (const Vec3<double>& shift : u)
-    if (!(shift.norm() <= size)) return false;
-  if (residual) {
-    const Vector left = residualForce(body, gravity, u, rotation);
-    *residual = 0;
-    for (std::size_t i = 0; i < body.elementCount(); ++i)
-      *residual =
-          std::max(*residual, left.segment<3>(6 * Eigen::Index(i)).norm() / (body.mass[i] * gravity.norm()));
+  if (!(gravity.squaredNorm() > 0)) return result;
+  StaticRestCache::Entry entry;
+  // Adding 0 makes -0 the same as 0.
+  entry.key = {(body.turn.conjugate() * gravity).array() + 0.0, body.material.youngsModulus,
+               body.material.density, body.model.rotationalStiffness};
+  const bool whole = body.brokenCount == 0 && body.crushedCount == 0;
+  if (!whole) cache = nullptr;
+  if (const auto* known = cache ? cache->find(body.asset, entry.key) : nullptr) {
+    result = known->result;
+    if (result.outcome != PrestressOutcome::Done) return result;
+    write(body, known->rest);
+    result.outcome = PrestressOutcome::Cached;
+    return result;
   }
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.displacement[i] = u[i].cast<Real>();
-    body.rotation[i] = rotation[i].cast<Real>();
+  result = solve(problemOf(body, entry.key.gravity), method, entry.rest);
+  if (result.applied()) {
+    write(body, entry.rest);
+  } else {
+    entry.rest = {};
   }
-  return true;
+  if (cache) {
+    entry.asset = body.asset;
+    entry.rest.key = entry.key.hash();
+    entry.result = result;
+    cache->add(std::move(entry));
+  }
+  return result;
 }
 
-template bool prestress(Body<float>&, const Eigen::Vector3d&, double*);
-template bool prestress(Body<double>&, const Eigen::Vector3d&, double*);
+template PrestressResult prestress(Body<float>&, const Eigen::Vector3d&, StaticRestCache*, RestMethod);
+template PrestressResult prestress(Body<double>&, const Eigen::Vector3d&, StaticRestCache*, RestMethod);
 
 }  // namespace rubble::edem

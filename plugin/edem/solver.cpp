@@ -44,18 +44,23 @@ class SolverOf final : public Solver {
                     def.material.name.c_str(), step, substeps, m_def.maxSubstepsPerFrame);
       throw Error(text);
     }
-    if (def.anchored && gravity.squaredNorm() > 0) prestress(*body, gravity);
+    PrestressResult prestressed;
+    if (def.anchored && gravity.squaredNorm() > 0) prestressed = prestress(*body, gravity, &m_restCache);
     beginSubstep(*body);
     bookNew(*body);
     m_bodies.push_back(std::move(body));
+    m_prestressed.push_back(std::move(prestressed));
     m_listsStale = true;
     return m_nextId++;
   }
+
+  const PrestressResult& prestressed(std::uint32_t id) const override { return m_prestressed[placeOf(id)]; }
 
   void removeBody(std::uint32_t id) override {
     const std::size_t place = placeOf(id);
     bookLeaving(*m_bodies[place]);
     m_bodies.erase(m_bodies.begin() + std::ptrdiff_t(place));
+    m_prestressed.erase(m_prestressed.begin() + std::ptrdiff_t(place));
     m_lists = {};  // they name bodies by place
     m_listsStale = true;
   }
@@ -215,6 +220,8 @@ class SolverOf final : public Solver {
   SolverDef m_def;
   std::uint32_t m_nextId = 0;
   std::vector<std::unique_ptr<Body<Real>>> m_bodies;
+  std::vector<PrestressResult> m_prestressed;  // beside m_bodies
+  StaticRestCache m_restCache;
   PairLists<Real> m_lists;
   RigidContacts<Real> m_rigid;
   bool m_listsStale = true;

@@ -12,6 +12,7 @@
 #include "edem/books.h"
 #include "edem/rigid_proxy.h"
 #include "edem/stages.h"
+#include "edem/static_rest.h"
 
 namespace rubble::edem {
 
@@ -41,6 +42,8 @@ class Solver {
   /// Adds a body; an anchored one is pre-stressed under `gravity`. Throws rubble::Error naming the stable
   /// substep when the body needs more than maxSubstepsPerFrame. Returns its id.
   virtual std::uint32_t addBody(const BodyDef& def, const Eigen::Vector3d& gravity) = 0;
+  /// What came of the pre-stress of a body.
+  virtual const PrestressResult& prestressed(std::uint32_t id) const = 0;
   virtual void removeBody(std::uint32_t id) = 0;
 
   /// Advances all bodies that are awake by `dt` seconds. `proxies` move along and collect what they are

@@ -51,7 +51,9 @@ struct DestructibleBodyDef {
   btVector3 spin = btVector3(0, 0, 0);                 ///< [rad/s]
   double massDamping = 0;  ///< decay rate of the deformation velocity [1/s]; the rigid motion is not damped
   /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's
-  /// gravity, so that it stands still from the first step.
+  /// gravity, so that it stands still from the first step. Where that fails, a warning is logged and the body
+  /// settles by itself, as every body does that only stands on something. An asset without anchors makes a
+  /// free body, which is logged too.
   bool anchored = true;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;

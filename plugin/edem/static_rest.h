@@ -1,0 +1,72 @@
+// What a static solve gives, and its cache: equal bodies are solved once.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edem/types.h"
+#include "rubble/asset.h"
+
+namespace rubble::edem {
+
+enum class PrestressOutcome {
+  Done,
+  Cached,       ///< an equal body's state was taken
+  NotNeeded,    ///< not asked for an anchored body, or there is no gravity
+  NotAnchored,  ///< a part of the body, or all of it, hangs on no anchor: it has no static state of its own
+  Failed        ///< nothing was written; `reason` says why
+};
+
+struct PrestressResult {
+  PrestressOutcome outcome = PrestressOutcome::NotNeeded;
+  std::string reason;  ///< of NotAnchored and Failed: one clause about "it", the body
+  /// Largest remaining force over the weight of an element, or torque over weight times radius,
+  /// dimensionless.
+  double residual = 0;
+  int corrections = 0;  ///< solutions with the stiffness at rest
+  int iterations = 0;   ///< of conjugate gradients, in all of them; 0 after a sparse Cholesky
+
+  bool applied() const { return outcome == PrestressOutcome::Done || outcome == PrestressOutcome::Cached; }
+};
+
+/// What a body's static state depends on, beside its asset and the precision of its constants. Compared bit
+/// by bit.
+struct StaticRestKey {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< asset axes [m/s^2]
+  double youngsModulus = 0;                           ///< [Pa]
+  double density = 0;                                 ///< [kg/m^3]
+  bool rotationalStiffness = true;
+
+  std::uint64_t hash() const;  ///< FNV-1a over the bits
+};
+
+/// The static state of a whole body, in the asset's axes: plain numbers that a file can keep.
+struct StaticRest {
+  std::uint64_t key = 0;                       ///< hash of its StaticRestKey
+  std::vector<Eigen::Vector3d> displacements;  ///< [m] (n)
+  std::vector<Quat<double>> rotations;         ///< (n)
+};
+
+/// States by asset and key, for as long as the asset lives. Failures are kept too, without a state.
+class StaticRestCache {
+ public:
+  struct Entry {
+    std::weak_ptr<const Asset> asset;
+    StaticRestKey key;
+    StaticRest rest;
+    PrestressResult result;
+  };
+  /// The entry, or null. Valid until the next call of add.
+  const Entry* find(const std::shared_ptr<const Asset>& asset, const StaticRestKey& key) const;
+  /// Keeps a new entry; forgets those whose asset is gone.
+  void add(Entry entry);
+  std::size_t size() const { return m_entries.size(); }
+
+ private:
+  std::vector<Entry> m_entries;
+};
+
+}  // namespace rubble::edem
