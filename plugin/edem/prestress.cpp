@@ -23,11 +23,11 @@ constexpr std::size_t kDirectElements = 256;
 constexpr int kMostCorrections = 50;
 // A correction that leaves more than this share of the residual calls for the stiffness of the present state:
 // a slender body that bends by some degrees has another one than at rest.
-constexpr double kSlow = 0.1;
+constexpr double kSlow = 0.3;
 // Rotations since the stiffness was taken that change nothing in it [rad].
 constexpr double kSameAngle = 1e-5;
 // Part of a residual that one correction leaves: less than what the finite rotations add.
-constexpr double kSolveShare = 1e-5;
+constexpr double kSolveShare = 1e-3;
 
 constexpr const char* kIndefinite = "its stiffness is not positive definite";
 
