@@ -90,7 +90,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->advice = edem::sizeAndWeightAdvice(
       {*bodyDef.asset, m, bodyDef.model, elements.transform, toEigen(world.getGravity()), bodyDef.anchored});
   if (!impl->advice.empty() && def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
-  if (bodyDef.anchored) logPrestress(impl->id, bodyDef);
+  if (bodyDef.anchored) logPrestress(impl->id, impl->name, bodyDef);
   impl->world = this;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
@@ -114,15 +114,15 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
 }
 
 // Says why an anchored body does not stand still from the start.
-void Destruction::Impl::logPrestress(std::uint32_t id, const DestructibleBodyDef& bodyDef) const {
-  const edem::PrestressResult& result = solver->prestressed(id);
-  const std::string name = "destructible body " + std::to_string(id) + " (" + bodyDef.material.name + ") ";
+void Destruction::Impl::logPrestress(std::uint32_t id, const std::string& name,
+                                     const DestructibleBodyDef& bodyDef) const {
   if (!def.log) return;
+  const edem::PrestressResult& result = solver->prestressed(id);
   if (bodyDef.asset->anchors.empty()) {
-    def.log(LogLevel::Info, name + "is to be anchored, but its asset has no anchors: it is free");
+    def.log(LogLevel::Info, name + ": is to be anchored, but its asset has no anchors: it is free");
   } else if (!result.reason.empty()) {
     def.log(LogLevel::Warning,
-            name + "is anchored but was not pre-stressed: " + result.reason + "; it will settle by itself");
+            name + ": is anchored but was not pre-stressed: " + result.reason + "; it will settle by itself");
   }
 }
 
