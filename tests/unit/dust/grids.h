@@ -12,6 +12,10 @@
 
 namespace rubble::test {
 
+using dust::CpuDust;
+using dust::Field;
+using dust::Lattice;
+
 /// A cube of `side` metres on the ground, in the middle of x and z.
 inline DustGridDef cube(int resolution, float side) {
   DustGridDef def;
