@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "gl/error.h"
 #include "shared/draw.h"
 
 namespace rubble::render {
@@ -39,7 +40,7 @@ CellBody::CellBody(const Asset& asset, CellJoining joining, const CellColours& c
       m_springs(asset.springs.size()),
       m_bounds(asset.bounds().cast<float>()),
       m_alive(asset.elementCount(), 1),
-      m_vertexArray(makeVertexArray()) {
+      m_vertexArray(gl::makeVertexArray()) {
   std::vector<Eigen::Vector4f> centres;
   centres.reserve(asset.elementCount());
   m_cellRadii.reserve(asset.elementCount());
@@ -66,7 +67,7 @@ CellBody::CellBody(const Asset& asset, CellJoining joining, const CellColours& c
   describeCorners();
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m_triangles.id());
   glBindVertexArray(0);
-  checkGl("a body");
+  gl::checkGl("a body");
 }
 
 void CellBody::uploadMasks() {
@@ -102,8 +103,8 @@ void CellBody::update(std::span<const ElementPose> poses, std::span<const std::u
   if (masksChanged) {
     // Only what lies between the first and the last changed vertex.
     const std::size_t first = m_weights.changed().front(), last = m_weights.changed().back();
-    m_masks.write(first * sizeof(CellMask),
-                  std::as_bytes(m_weights.masks().subspan(first, last + 1 - first)));
+    m_masks.write(std::as_bytes(m_weights.masks().subspan(first, last + 1 - first)),
+                  first * sizeof(CellMask));
   }
   if (masksChanged || aliveChanged) {
     m_mesh.visible(m_weights.masks(), poses, m_visible);

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "gl/buffer.h"
 #include "render/cell_mesh.h"
-#include "render/gl_object.h"
 #include "render/weights.h"
 #include "rubble/render.h"
 
@@ -33,9 +33,9 @@ class CellBody {
   // For debris, which draws single cells of this mesh.
   std::span<const Cell> cells() const { return m_cells; }
   float cellRadius(std::size_t element) const { return m_cellRadii[element]; }  ///< (3 V / 4 pi)^(1/3) [m]
-  const Buffer& corners() const { return m_corners; }
+  const gl::Buffer& corners() const { return m_corners; }
   /// All triangles, grouped by cell; behind them the coarse ones, kCoarseTriangles a cell.
-  const Buffer& allTriangles() const { return m_allTriangles; }
+  const gl::Buffer& allTriangles() const { return m_allTriangles; }
   std::uint32_t firstCoarseTriangle() const { return std::uint32_t(m_mesh.triangles().size()); }
   float coarseScale(std::size_t element) const { return m_mesh.coarseScale(element); }
   void bindMesh() const;  ///< rest centres and cell vertices
@@ -55,8 +55,8 @@ class CellBody {
   std::vector<std::uint8_t> m_alive;
   std::vector<std::array<std::uint32_t, 3>> m_visible;
 
-  VertexArrayName m_vertexArray;
-  Buffer m_corners, m_vertices, m_centres, m_poses, m_masks, m_triangles, m_allTriangles;
+  gl::VertexArrayName m_vertexArray;
+  gl::Buffer m_corners, m_vertices, m_centres, m_poses, m_masks, m_triangles, m_allTriangles;
 };
 
 /// Declares the attributes of PackedCorner in the vertex array in use, from vertex buffer binding 0.

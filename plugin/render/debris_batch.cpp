@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gl/error.h"
 #include "shared/draw.h"
 
 namespace rubble::render {
@@ -30,7 +31,7 @@ void describeInstances(std::size_t rotation, std::size_t element) {
 
 }  // namespace
 
-DebrisBatch::DebrisBatch(const CellBody& body) : m_vertexArray(makeVertexArray()) {
+DebrisBatch::DebrisBatch(const CellBody& body) : m_vertexArray(gl::makeVertexArray()) {
   m_instanceBuffer.upload(std::span<const std::byte>(), GL_STREAM_DRAW);
   m_commandBuffer.upload(std::span<const std::byte>(), GL_STREAM_DRAW);
   glBindVertexArray(m_vertexArray.id());
@@ -40,7 +41,7 @@ DebrisBatch::DebrisBatch(const CellBody& body) : m_vertexArray(makeVertexArray()
   describeInstances(offsetof(Instance, rotation), offsetof(Instance, element));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, body.allTriangles().id());
   glBindVertexArray(0);
-  checkGl("debris");
+  gl::checkGl("debris");
 }
 
 DebrisBatch::Detail DebrisBatch::detail(const DebrisInstance& piece, float cellRadius,

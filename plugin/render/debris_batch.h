@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "gl/buffer.h"
 #include "render/cell_body.h"
-#include "render/gl_object.h"
 #include "rubble/render.h"
 
 namespace rubble::render {
@@ -58,8 +58,8 @@ class DebrisBatch {
   std::vector<Command> m_commands;
   std::size_t m_tooSmall = 0;
   std::size_t m_triangles = 0;
-  VertexArrayName m_vertexArray;
-  Buffer m_instanceBuffer, m_commandBuffer;
+  gl::VertexArrayName m_vertexArray;
+  gl::Buffer m_instanceBuffer, m_commandBuffer;
 };
 
 }  // namespace rubble::render

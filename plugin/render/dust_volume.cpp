@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "gl/shader.h"
+#include "gl/texture.h"
 #include "render/frame.h"
-#include "render/shader.h"
 
 namespace rubble::render {
 namespace {
@@ -14,19 +15,12 @@ GLuint groups(int items, int size) {
   return GLuint((items + size - 1) / size);
 }
 
-TextureName makeVolume(GLenum format, int n, GLint edge, const std::array<float, 4>& border) {
-  TextureName texture = makeTexture();
-  glBindTexture(GL_TEXTURE_3D, texture.id());
-  glTexStorage3D(GL_TEXTURE_3D, 1, format, n, n, n);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, edge);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, edge);
-  // Along the light: before the grid nothing has been lost, behind it the shadow goes on.
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-  glTexParameterfv(GL_TEXTURE_3D, GL_TEXTURE_BORDER_COLOR, border.data());
-  checkGl("a dust volume");
-  return texture;
+// Along the light: before the grid nothing has been lost, behind it the shadow goes on.
+gl::TextureName makeCube(GLenum format, int n, GLenum edge, float border) {
+  return gl::makeVolume({.format = format,
+                         .size = n,
+                         .edges = {edge, edge, GL_CLAMP_TO_EDGE},
+                         .border = {border, border, border, border}});
 }
 
 }  // namespace
@@ -59,13 +53,14 @@ DustLightBox dustLightBox(const Eigen::AlignedBox3f& grid, const Eigen::Vector3f
 }
 
 DustVolume::DustVolume(const std::string& shaderDirectory)
-    : m_extinctionProgram(makeProgram(shaderDirectory, {{GL_COMPUTE_SHADER, "draw/dust_extinction.comp"}})),
-      m_lightProgram(makeProgram(shaderDirectory, {{GL_COMPUTE_SHADER, "draw/dust_light.comp"}})) {}
+    : m_extinctionProgram(
+          gl::makeProgram(shaderDirectory, {{GL_COMPUTE_SHADER, "draw/dust_extinction.comp"}})),
+      m_lightProgram(gl::makeProgram(shaderDirectory, {{GL_COMPUTE_SHADER, "draw/dust_light.comp"}})) {}
 
 void DustVolume::resize(int resolution) {
   if (resolution == m_resolution) return;
-  m_extinction = makeVolume(GL_R32F, resolution, GL_CLAMP_TO_EDGE, {0, 0, 0, 0});
-  m_light = makeVolume(GL_RG16F, resolution, GL_CLAMP_TO_BORDER, {1, 1, 1, 1});
+  m_extinction = makeCube(GL_R32F, resolution, GL_CLAMP_TO_EDGE, 0);
+  m_light = makeCube(GL_RG16F, resolution, GL_CLAMP_TO_BORDER, 1);
   m_resolution = resolution;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/gl_object.h"
+#include "gl/buffer.h"
 #include "rubble/render.h"
 #include "shared/draw.h"
 
@@ -38,9 +38,9 @@ class DustVolume {
  private:
   void resize(int resolution);
 
-  ProgramName m_extinctionProgram, m_lightProgram;
-  TextureName m_extinction, m_light;
-  Buffer m_density, m_bounds;
+  gl::ProgramName m_extinctionProgram, m_lightProgram;
+  gl::TextureName m_extinction, m_light;
+  gl::Buffer m_density, m_bounds;
   std::vector<float> m_cpuDensity;
   int m_resolution = 0;
 };

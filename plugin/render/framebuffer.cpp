@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <array>
 
-#include "render/gl_object.h"
+#include "gl/error.h"
+#include "gl/framebuffer.h"
+#include "gl/texture.h"
 #include "rubble/render.h"
 
 namespace rubble {
 
 struct Framebuffer::Impl {
   int width, height;
-  render::TextureName colour, depth;
-  render::FramebufferName framebuffer;
+  gl::TextureName colour, depth;
+  gl::FramebufferName framebuffer;
 };
 
 Framebuffer::Framebuffer(int width, int height) : m_impl(std::make_unique<Impl>()) {
@@ -22,10 +24,10 @@ Framebuffer::Framebuffer(int width, int height) : m_impl(std::make_unique<Impl>(
   }
   m_impl->width = width;
   m_impl->height = height;
-  m_impl->colour = render::makeTexture2d({GL_RGBA8, width, height});
-  m_impl->depth = render::makeTexture2d({GL_DEPTH_COMPONENT24, width, height});
+  m_impl->colour = gl::makeTexture2d({GL_RGBA8, width, height});
+  m_impl->depth = gl::makeTexture2d({GL_DEPTH_COMPONENT24, width, height});
   m_impl->framebuffer =
-      render::makeFramebuffer("a picture", std::array{m_impl->colour.id()}, m_impl->depth.id(), 1);
+      gl::makeFramebuffer("a picture", std::array{m_impl->colour.id()}, m_impl->depth.id(), 1);
 }
 
 Framebuffer::~Framebuffer() = default;
@@ -44,7 +46,7 @@ Image Framebuffer::readPixels() const {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-  render::checkGl("reading a picture");
+  gl::checkGl("reading a picture");
   // OpenGL's first row is the lowest.
   const auto rowAt = [&](int y) { return image.pixels.begin() + std::ptrdiff_t(row) * y; };
   for (int y = 0; y < image.height / 2; ++y) {

@@ -6,14 +6,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "gl/error.h"
+#include "gl/texture.h"
+
 namespace rubble::render {
 namespace {
 
 constexpr int kSize = 64;                          // texels along an axis
 constexpr std::array<int, 3> kLattice{8, 16, 32};  // knots along an axis, by octave
 constexpr std::array<float, 3> kStrength{0.5f, 0.3f, 0.2f};
-constexpr float kSlope = 4;   // gradient to colour: fills the range without clipping much
-constexpr GLint kLevels = 7;  // log2(kSize) + 1
+constexpr float kSlope = 4;  // gradient to colour: fills the range without clipping much
+constexpr int kLevels = 7;   // log2(kSize) + 1
 
 // Integer hash (the finaliser of MurmurHash3, over each coordinate in turn) to [0, 1].
 float knot(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t octave) {
@@ -63,7 +66,7 @@ std::uint8_t toByte(float x) {
 
 }  // namespace
 
-TextureName makeNoiseTexture() {
+gl::TextureName makeNoiseTexture() {
   std::vector<float> value(std::size_t{kSize} * kSize * kSize);
   for (int z = 0; z < kSize; ++z) {
     for (int y = 0; y < kSize; ++y) {
@@ -86,14 +89,10 @@ TextureName makeNoiseTexture() {
       }
     }
   }
-  TextureName texture = makeTexture();
-  glBindTexture(GL_TEXTURE_3D, texture.id());
-  glTexStorage3D(GL_TEXTURE_3D, kLevels, GL_RGBA8, kSize, kSize, kSize);
+  gl::TextureName texture = gl::makeVolume({.format = GL_RGBA8, .size = kSize, .levels = kLevels});
   glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, kSize, kSize, kSize, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
   glGenerateMipmap(GL_TEXTURE_3D);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  checkGl("the noise texture");
+  gl::checkGl("the noise texture");
   return texture;
 }
 

@@ -1,11 +1,12 @@
 #include "render/prop.h"
 
+#include "gl/error.h"
 #include "shared/draw.h"
 
 namespace rubble::render {
 
 Prop::Prop(const Shape& shape, const PropLook& look)
-    : m_look(look), m_vertexArray(makeVertexArray()), m_indices(GLsizei(3 * shape.triangles.size())) {
+    : m_look(look), m_vertexArray(gl::makeVertexArray()), m_indices(GLsizei(3 * shape.triangles.size())) {
   m_vertices.upload(std::span<const ShapeVertex>(shape.vertices), GL_STATIC_DRAW);
   m_triangles.upload(std::span<const std::array<std::uint32_t, 3>>(shape.triangles), GL_STATIC_DRAW);
   glBindVertexArray(m_vertexArray.id());
@@ -18,7 +19,7 @@ Prop::Prop(const Shape& shape, const PropLook& look)
   glVertexAttribBinding(RUBBLE_NORMAL_ATTRIBUTE, 0);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m_triangles.id());
   glBindVertexArray(0);
-  checkGl("a prop");
+  gl::checkGl("a prop");
 }
 
 void Prop::setPose(const Eigen::Vector3f& position, const Eigen::Quaternionf& orientation) {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "render/gl_object.h"
+#include "gl/buffer.h"
 #include "render/shapes.h"
 #include "rubble/render.h"
 
@@ -22,8 +22,8 @@ class Prop {
  private:
   PropLook m_look;
   Eigen::Matrix4f m_model = Eigen::Matrix4f::Identity();
-  VertexArrayName m_vertexArray;
-  Buffer m_vertices, m_triangles;
+  gl::VertexArrayName m_vertexArray;
+  gl::Buffer m_vertices, m_triangles;
   GLsizei m_indices;
 };
 

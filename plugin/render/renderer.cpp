@@ -4,14 +4,14 @@
 #include <string>
 
 #include "base/stopwatch.h"
+#include "gl/error.h"
+#include "gl/shader.h"
 #include "render/cell_body.h"
 #include "render/debris_batch.h"
 #include "render/dust_volume.h"
 #include "render/frame.h"
-#include "render/gl_object.h"
 #include "render/noise_texture.h"
 #include "render/prop.h"
-#include "render/shader.h"
 #include "render/targets.h"
 #include "rubble/limits.h"
 #include "rubble/render.h"
@@ -63,15 +63,15 @@ const RendererDef& checked(const RendererDef& def) {
   return def;
 }
 
-ProgramName solidProgram(const std::string& shaders, const char* vertexFile) {
-  return makeProgram(shaders, {{GL_VERTEX_SHADER, vertexFile}, {GL_FRAGMENT_SHADER, "draw/solid.frag"}});
+gl::ProgramName solidProgram(const std::string& shaders, const char* vertexFile) {
+  return gl::makeProgram(shaders, {{GL_VERTEX_SHADER, vertexFile}, {GL_FRAGMENT_SHADER, "draw/solid.frag"}});
 }
-ProgramName shadowProgram(const std::string& shaders, const char* vertexFile) {
-  return makeProgram(shaders, {{GL_VERTEX_SHADER, vertexFile, kShadowPass}});
+gl::ProgramName shadowProgram(const std::string& shaders, const char* vertexFile) {
+  return gl::makeProgram(shaders, {{GL_VERTEX_SHADER, vertexFile, kShadowPass}});
 }
-ProgramName fullscreenProgram(const std::string& shaders, const char* fragmentFile,
-                              const char* defines = "") {
-  return makeProgram(
+gl::ProgramName fullscreenProgram(const std::string& shaders, const char* fragmentFile,
+                                  const char* defines = "") {
+  return gl::makeProgram(
       shaders, {{GL_VERTEX_SHADER, "draw/fullscreen.vert"}, {GL_FRAGMENT_SHADER, fragmentFile, defines}});
 }
 
@@ -110,14 +110,14 @@ struct Renderer::Impl {
         cellShadow(shadowProgram(def.shaderDirectory, "draw/cells.vert")),
         debrisShadow(shadowProgram(def.shaderDirectory, "draw/debris.vert")),
         propShadow(shadowProgram(def.shaderDirectory, "draw/prop.vert")),
-        groundProgram(makeProgram(def.shaderDirectory, {{GL_VERTEX_SHADER, "draw/ground.vert"},
-                                                        {GL_FRAGMENT_SHADER, "draw/ground.frag"}})),
+        groundProgram(gl::makeProgram(def.shaderDirectory, {{GL_VERTEX_SHADER, "draw/ground.vert"},
+                                                            {GL_FRAGMENT_SHADER, "draw/ground.frag"}})),
         skyProgram(fullscreenProgram(def.shaderDirectory, "draw/sky.frag")),
         dustProgram(fullscreenProgram(def.shaderDirectory, "draw/dust_march.frag")),
         compositeProgram(fullscreenProgram(def.shaderDirectory, "draw/composite.frag")),
         compositeDust(fullscreenProgram(def.shaderDirectory, "draw/composite.frag", "#define RUBBLE_DUST\n")),
         noise(makeNoiseTexture()),
-        noVertices(makeVertexArray()),
+        noVertices(gl::makeVertexArray()),
         shadowMap(def.shadowMapSize),
         scene(def.samples),
         dustVolume(def.shaderDirectory) {}
@@ -160,14 +160,14 @@ struct Renderer::Impl {
   void setSolidState();
 
   RendererDef def;
-  ProgramName cellProgram, debrisProgram, propProgram, cellShadow, debrisShadow, propShadow, groundProgram,
-      skyProgram, dustProgram, compositeProgram, compositeDust;
-  TextureName noise;
-  VertexArrayName noVertices;
+  gl::ProgramName cellProgram, debrisProgram, propProgram, cellShadow, debrisShadow, propShadow,
+      groundProgram, skyProgram, dustProgram, compositeProgram, compositeDust;
+  gl::TextureName noise;
+  gl::VertexArrayName noVertices;
   ShadowMap shadowMap;
   SceneTargets scene;
   DustVolume dustVolume;
-  Buffer frameBuffer;
+  gl::Buffer frameBuffer;
 
   std::map<BodyId, Body> bodies;
   std::map<PropId, Prop> props;
@@ -408,7 +408,7 @@ void Renderer::draw(const Camera& camera, const Lighting& lighting, const FrameT
   r.timed(r.times.resolve, [&] { r.scene.resolve(); });
   r.timed(r.times.dust, [&] { r.marchDust(); });
   r.timed(r.times.composite, [&] { r.composite(target); });
-  checkGl("drawing a frame");
+  gl::checkGl("drawing a frame");
 }
 
 const PassTimes& Renderer::passTimes() const {

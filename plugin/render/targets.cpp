@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "gl/framebuffer.h"
+#include "gl/texture.h"
+
 namespace rubble::render {
 namespace {
 
@@ -12,14 +15,14 @@ constexpr GLenum kShadowFormat = GL_DEPTH_COMPONENT24;
 }  // namespace
 
 ShadowMap::ShadowMap(int size) : m_size(size) {
-  m_depth = makeTexture2d({kShadowFormat, size, size, GL_LINEAR});
+  m_depth = gl::makeTexture2d({kShadowFormat, size, size, GL_LINEAR});
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   const std::array<float, 4> lit{1, 1, 1, 1};  // outside of the map nothing casts
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit.data());
-  m_framebuffer = makeFramebuffer("the shadow map", {}, m_depth.id(), 1);
+  m_framebuffer = gl::makeFramebuffer("the shadow map", {}, m_depth.id(), 1);
 }
 
 void ShadowMap::begin() const {
@@ -31,19 +34,19 @@ void ShadowMap::begin() const {
 
 void SceneTargets::resize(int width, int height) {
   if (width == m_width && height == m_height) return;
-  m_colour = makeTexture2d({kColourFormat, width, height});
-  m_depth = makeTexture2d({kDepthFormat, width, height});
-  m_scene = makeFramebuffer("the scene", std::array{m_colour.id()}, m_depth.id(), 1);
+  m_colour = gl::makeTexture2d({kColourFormat, width, height});
+  m_depth = gl::makeTexture2d({kDepthFormat, width, height});
+  m_scene = gl::makeFramebuffer("the scene", std::array{m_colour.id()}, m_depth.id(), 1);
   if (m_samples > 1) {
-    m_sampledColour = makeTexture2d({kColourFormat, width, height, GL_NEAREST, m_samples});
-    m_sampledDepth = makeTexture2d({kDepthFormat, width, height, GL_NEAREST, m_samples});
-    m_sampledScene = makeFramebuffer("the multisampled scene", std::array{m_sampledColour.id()},
-                                     m_sampledDepth.id(), m_samples);
+    m_sampledColour = gl::makeTexture2d({kColourFormat, width, height, GL_NEAREST, m_samples});
+    m_sampledDepth = gl::makeTexture2d({kDepthFormat, width, height, GL_NEAREST, m_samples});
+    m_sampledScene = gl::makeFramebuffer("the multisampled scene", std::array{m_sampledColour.id()},
+                                         m_sampledDepth.id(), m_samples);
   }
   const int halfWidth = (width + 1) / 2, halfHeight = (height + 1) / 2;
-  m_dust = makeTexture2d({GL_RGBA16F, halfWidth, halfHeight});
-  m_dustDistance = makeTexture2d({GL_R32F, halfWidth, halfHeight});
-  m_dustFramebuffer = makeFramebuffer("the dust", std::array{m_dust.id(), m_dustDistance.id()}, 0, 1);
+  m_dust = gl::makeTexture2d({GL_RGBA16F, halfWidth, halfHeight});
+  m_dustDistance = gl::makeTexture2d({GL_R32F, halfWidth, halfHeight});
+  m_dustFramebuffer = gl::makeFramebuffer("the dust", std::array{m_dust.id(), m_dustDistance.id()}, 0, 1);
   m_width = width;
   m_height = height;
 }

@@ -1,7 +1,7 @@
 // The textures a frame is drawn into: shadow map, scene (multisampled and resolved), dust at half resolution.
 #pragma once
 
-#include "render/gl_object.h"
+#include "gl/name.h"
 
 namespace rubble::render {
 
@@ -15,8 +15,8 @@ class ShadowMap {
 
  private:
   int m_size;
-  TextureName m_depth;
-  FramebufferName m_framebuffer;
+  gl::TextureName m_depth;
+  gl::FramebufferName m_framebuffer;
 };
 
 /// Made anew when the size of the picture changes.
@@ -38,8 +38,8 @@ class SceneTargets {
  private:
   int m_samples;
   int m_width = 0, m_height = 0;
-  TextureName m_colour, m_depth, m_sampledColour, m_sampledDepth, m_dust, m_dustDistance;
-  FramebufferName m_scene, m_sampledScene, m_dustFramebuffer;
+  gl::TextureName m_colour, m_depth, m_sampledColour, m_sampledDepth, m_dust, m_dustDistance;
+  gl::FramebufferName m_scene, m_sampledScene, m_dustFramebuffer;
 };
 
 }  // namespace rubble::render

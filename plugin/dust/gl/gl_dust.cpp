@@ -1,4 +1,5 @@
 #include "dust/gl/gl_dust.h"
+#include "rubble/machine_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 #include <vector>
 
 #include "dust/definition.h"
-#include "rubble/machine_error.h"
+#include "gl/error.h"
 #include "shared/dust.h"
 
 namespace rubble::dust {
@@ -67,7 +68,7 @@ GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory)
   m_air.write(std::as_bytes(std::span(air)));
   setStep(0);
   m_pressure.setAir(m_air, false);
-  checkGl("creation");
+  gl::checkGl("creation of a dust grid");
 }
 
 // The constants of a stage. Bound each time: another part of the program may use the binding point.
@@ -80,23 +81,20 @@ void GlDust::setStep(float dt) {
                                      {m_def.gravity / m_def.airDensity, shared::kDustMaxLoad * m_def.gravity,
                                       m_def.vorticity, settlingSpeed(m_def)}};
   m_params.write(std::as_bytes(std::span(&params, 1)));
-  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  m_params.bindBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS);
 }
 
 template <class T>
 void GlDust::sendList(std::span<const T> items) {
-  const auto bytes = std::as_bytes(items);
-  // Half as much again, so that a growing list does not ask for storage every step.
-  if (bytes.size() > m_list.bytes()) m_list = GlBuffer(bytes.size() + bytes.size() / 2);
-  m_list.write(bytes);
-  m_list.bind(DUST_BIND_LIST);
+  m_list.upload(items, GL_DYNAMIC_COPY);
+  m_list.bindStorage(DUST_BIND_LIST);
 }
 
 void GlDust::addSources(std::span<const shared::DustSourceCell> sources) {
   if (sources.empty()) return;
   sendList(sources);
-  m_velocity.bind(DUST_BIND_VELOCITY);
-  m_density.bind(DUST_BIND_DENSITY);
+  m_velocity.bindStorage(DUST_BIND_VELOCITY);
+  m_density.bindStorage(DUST_BIND_DENSITY);
   const int count = int(sources.size());
   m_addSources.set(DUST_UNIFORM_A, count);
   m_addSources.run((count + kListGroup - 1) / kListGroup);
@@ -104,22 +102,22 @@ void GlDust::addSources(std::span<const shared::DustSourceCell> sources) {
 
 void GlDust::addForces(float dt) {
   setStep(dt);
-  m_velocity.bind(DUST_BIND_VELOCITY);
-  m_work.bind(DUST_BIND_VELOCITY_2);
-  m_density.bind(DUST_BIND_DENSITY);
+  m_velocity.bindStorage(DUST_BIND_VELOCITY);
+  m_work.bindStorage(DUST_BIND_VELOCITY_2);
+  m_density.bindStorage(DUST_BIND_DENSITY);
   if (m_def.vorticity > 0) m_source.runOnCells(m_curl);
   m_source.runOnCells(m_forces);
 }
 
 void GlDust::placeObstacles(std::span<const SolidCells> solids) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  m_params.bindBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS);
   if (!solids.empty() || m_anySolid) {
     m_solidList.clear();
     for (const SolidCells& s : solids) m_solidList.push_back(s.solid);
     if (m_solidList.empty()) m_solidList.emplace_back();  // a binding must hold something; the count is 0
     sendList(std::span<const shared::DustSolid>(m_solidList));
-    m_velocity.bind(DUST_BIND_VELOCITY);
-    m_air.bind(DUST_BIND_AIR);
+    m_velocity.bindStorage(DUST_BIND_VELOCITY);
+    m_air.bindStorage(DUST_BIND_AIR);
     m_obstacles.set(DUST_UNIFORM_A, int(solids.size()));
     m_source.runOnCells(m_obstacles);
   }
@@ -128,12 +126,12 @@ void GlDust::placeObstacles(std::span<const SolidCells> solids) {
 }
 
 void GlDust::computeDivergence() {
-  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
-  m_velocity.bind(DUST_BIND_VELOCITY);
-  m_air.bind(DUST_BIND_AIR);
-  m_faces.bind(DUST_BIND_FACES);
+  m_params.bindBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS);
+  m_velocity.bindStorage(DUST_BIND_VELOCITY);
+  m_air.bindStorage(DUST_BIND_AIR);
+  m_faces.bindStorage(DUST_BIND_FACES);
   m_source.runOnCells(m_faceVelocities);
-  m_divergence.bind(DUST_BIND_RHS);
+  m_divergence.bindStorage(DUST_BIND_RHS);
   m_source.runOnCells(m_divergenceOf);
 }
 
@@ -142,19 +140,19 @@ void GlDust::solvePressure() {
 }
 
 void GlDust::project() {
-  m_pressure.pressure().bind(DUST_BIND_PRESSURE);
-  m_velocity.bind(DUST_BIND_VELOCITY_OUT);
-  m_air.bind(DUST_BIND_AIR);
-  m_faces.bind(DUST_BIND_FACES);
+  m_pressure.pressure().bindStorage(DUST_BIND_PRESSURE);
+  m_velocity.bindStorage(DUST_BIND_VELOCITY_OUT);
+  m_air.bindStorage(DUST_BIND_AIR);
+  m_faces.bindStorage(DUST_BIND_FACES);
   m_source.runOnCells(m_projectFaces);
   m_source.runOnCells(m_projectCells);
 }
 
 void GlDust::advectVelocity(float dt) {
   setStep(dt);
-  m_velocity.bind(DUST_BIND_VELOCITY);
-  m_work.bind(DUST_BIND_VELOCITY_2);
-  m_corrected.bind(DUST_BIND_VELOCITY_OUT);
+  m_velocity.bindStorage(DUST_BIND_VELOCITY);
+  m_work.bindStorage(DUST_BIND_VELOCITY_2);
+  m_corrected.bindStorage(DUST_BIND_VELOCITY_OUT);
   m_source.runOnCells(m_advect);
   m_source.runOnCells(m_correct);
   std::swap(m_velocity, m_corrected);
@@ -162,14 +160,14 @@ void GlDust::advectVelocity(float dt) {
 
 void GlDust::transportDust(float dt) {
   setStep(dt);
-  m_density.bind(DUST_BIND_DENSITY);
-  m_air.bind(DUST_BIND_AIR);
-  m_faces.bind(DUST_BIND_FACES);
-  m_substeps.bind(DUST_BIND_LIST);
+  m_density.bindStorage(DUST_BIND_DENSITY);
+  m_air.bindStorage(DUST_BIND_AIR);
+  m_faces.bindStorage(DUST_BIND_FACES);
+  m_substeps.bindStorage(DUST_BIND_LIST);
   m_source.runOnCells(m_courant);
   m_schedule.run(1);
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
-  m_outflow.bind(DUST_BIND_OUTFLOW);  // the binding point of the air, which is no longer needed
+  m_outflow.bindStorage(DUST_BIND_OUTFLOW);  // the binding point of the air, which is no longer needed
   for (int s = 0; s < shared::kDustMaxSubsteps; ++s) {
     // Every other substep takes the axes in reverse, which cancels the bias of their order.
     for (int k = 0; k < 3; ++k) {
@@ -183,7 +181,7 @@ void GlDust::sumTotals() {
   m_totals.update(m_density, m_outflow, m_emitted, m_outside);
 }
 
-const GlBuffer& GlDust::bufferOf(Field field) const {
+const gl::Buffer& GlDust::bufferOf(Field field) const {
   switch (field) {
     case Field::Velocity:
       return m_velocity;
@@ -211,7 +209,7 @@ void GlDust::write(Field field, std::span<const float> values) {
   if (field == Field::Pressure) throw Error("dust: write: the pressure is a result");
   bufferOf(field).write(std::as_bytes(values));
   if (field != Field::Air) return;
-  glBindBufferBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS, m_params.id());
+  m_params.bindBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS);
   m_anySolid = true;
   m_pressure.setAir(m_air, true);
 }

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "dust/gl/gl_buffer.h"
 #include "dust/gl/gl_kernel.h"
 #include "dust/gl/gl_multigrid.h"
 #include "dust/gl/gl_totals.h"
 #include "dust/stages.h"
+#include "gl/buffer.h"
 
 namespace rubble::dust {
 
@@ -38,22 +38,22 @@ class GlDust final : public Stages {
   void setStep(float dt);
   template <class T>
   void sendList(std::span<const T> items);
-  const GlBuffer& bufferOf(Field field) const;
+  const gl::Buffer& bufferOf(Field field) const;
 
   GlKernelSource m_source;
   GlKernel m_addSources, m_curl, m_forces, m_obstacles, m_faceVelocities, m_divergenceOf;
   GlKernel m_projectFaces, m_projectCells, m_advect, m_correct, m_courant, m_schedule, m_sweep;
-  GlBuffer m_velocity;    // vec4 (n^3) [m/s]
-  GlBuffer m_work;        // vec4 (n^3) curl, then the advected velocity
-  GlBuffer m_corrected;   // vec4 (n^3) exchanged with m_velocity
-  GlBuffer m_density;     // (n^3) [kg/m^3]
-  GlBuffer m_air;         // (n^3) 1 air, 0 solid
-  GlBuffer m_faces;       // (3 n^2 (n+1)) [m/s], then Courant numbers
-  GlBuffer m_divergence;  // (n^3) [1/s]
-  GlBuffer m_outflow;     // vec2 (6 n^2) dust through the sides since the start
-  GlBuffer m_substeps;    // layout in shaders/dust/schedule.glsl
-  GlBuffer m_params;      // DustParams
-  GlBuffer m_list;        // sources, then obstacles; grows
+  gl::Buffer m_velocity;    // vec4 (n^3) [m/s]
+  gl::Buffer m_work;        // vec4 (n^3) curl, then the advected velocity
+  gl::Buffer m_corrected;   // vec4 (n^3) exchanged with m_velocity
+  gl::Buffer m_density;     // (n^3) [kg/m^3]
+  gl::Buffer m_air;         // (n^3) 1 air, 0 solid
+  gl::Buffer m_faces;       // (3 n^2 (n+1)) [m/s], then Courant numbers
+  gl::Buffer m_divergence;  // (n^3) [1/s]
+  gl::Buffer m_outflow;     // vec2 (6 n^2) dust through the sides since the start
+  gl::Buffer m_substeps;    // layout in shaders/dust/schedule.glsl
+  gl::Buffer m_params;      // DustParams
+  gl::Buffer m_list;        // sources, then obstacles; grows
   GlMultigrid m_pressure;
   GlTotals m_totals;
   std::vector<shared::DustSolid> m_solidList;

@@ -1,28 +1,25 @@
 // A compute shader, built from a file, and the sizes it is built for.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <string>
+#include <utility>
+
+#include "gl/name.h"
 
 namespace rubble::dust {
 
 class GlKernel {
  public:
-  /// Owns `program`.
-  explicit GlKernel(GLuint program) : m_program(program) {}
-  ~GlKernel();
-  GlKernel(GlKernel&& other) noexcept;
-  GlKernel& operator=(GlKernel&& other) = delete;
+  explicit GlKernel(gl::ProgramName program) : m_program(std::move(program)) {}
 
-  void set(GLint location, int value) const { glProgramUniform1i(m_program, location, value); }
+  void set(GLint location, int value) const { glProgramUniform1i(m_program.id(), location, value); }
   /// Runs so many work groups; later kernels see what it wrote.
   void run(int x, int y = 1, int z = 1) const;
   /// As many as the GPU has written at `offset` bytes of `arguments`.
   void runIndirect(GLuint arguments, std::size_t offset) const;
 
  private:
-  GLuint m_program;
+  gl::ProgramName m_program;
 };
 
 /// Builds kernels for a grid of n^3 cells.

@@ -23,49 +23,49 @@ GlMultigrid::GlMultigrid(const GlKernelSource& source)
       m_coarsest(source.build("coarsest.comp")) {
   for (int n = source.n(); n >= shared::kDustCoarsest; n /= 2) {
     const auto cells = std::size_t(n) * n * n;
-    Level level{n, bufferOf<float>(cells), {}, bufferOf<float>(cells), {}};
+    Level level{n, gl::bufferOf<float>(cells), {}, gl::bufferOf<float>(cells), {}};
     if (n < source.n()) {
-      level.rhs = bufferOf<float>(cells);
-      level.weights = bufferOf<float>(6 * cells);
+      level.rhs = gl::bufferOf<float>(cells);
+      level.weights = gl::bufferOf<float>(6 * cells);
     }
     m_levels.push_back(std::move(level));
   }
 }
 
-void GlMultigrid::setAir(const GlBuffer& air, bool anySolid) {
+void GlMultigrid::setAir(const gl::Buffer& air, bool anySolid) {
   if (!anySolid && !m_anySolid) return;
   m_anySolid = anySolid;
-  air.bind(DUST_BIND_AIR);
-  m_levels[0].inverse.bind(DUST_BIND_INVERSE);
+  air.bindStorage(DUST_BIND_AIR);
+  m_levels[0].inverse.bindStorage(DUST_BIND_INVERSE);
   m_source.runOnCells(m_inverse);
   for (std::size_t i = 1; i < m_levels.size(); ++i) {
     const Level& coarse = m_levels[i];
     const GlKernel& kernel = i == 1 ? m_finestWeights : m_weights;
-    if (i > 1) m_levels[i - 1].weights.bind(DUST_BIND_WEIGHTS);
-    coarse.weights.bind(DUST_BIND_COARSE_WEIGHTS);
-    coarse.inverse.bind(DUST_BIND_COARSE_INVERSE);
+    if (i > 1) m_levels[i - 1].weights.bindStorage(DUST_BIND_WEIGHTS);
+    coarse.weights.bindStorage(DUST_BIND_COARSE_WEIGHTS);
+    coarse.inverse.bindStorage(DUST_BIND_COARSE_INVERSE);
     kernel.set(DUST_UNIFORM_A, coarse.n);
     const int groups = coarse.n / kLevelGroup;
     kernel.run(groups, groups, groups);
   }
 }
 
-void GlMultigrid::bind(std::size_t index, const GlBuffer& rhs) const {
+void GlMultigrid::bind(std::size_t index, const gl::Buffer& rhs) const {
   const Level& level = m_levels[index];
-  level.pressure.bind(DUST_BIND_PRESSURE);
-  rhs.bind(DUST_BIND_RHS);
-  level.inverse.bind(DUST_BIND_INVERSE);
-  if (index > 0) level.weights.bind(DUST_BIND_WEIGHTS);
+  level.pressure.bindStorage(DUST_BIND_PRESSURE);
+  rhs.bindStorage(DUST_BIND_RHS);
+  level.inverse.bindStorage(DUST_BIND_INVERSE);
+  if (index > 0) level.weights.bindStorage(DUST_BIND_WEIGHTS);
 }
 
 void GlMultigrid::bindCoarse(const Level& coarse) const {
-  coarse.pressure.bind(DUST_BIND_COARSE_PRESSURE);
-  coarse.rhs.bind(DUST_BIND_COARSE_RHS);
-  coarse.inverse.bind(DUST_BIND_COARSE_INVERSE);
+  coarse.pressure.bindStorage(DUST_BIND_COARSE_PRESSURE);
+  coarse.rhs.bindStorage(DUST_BIND_COARSE_RHS);
+  coarse.inverse.bindStorage(DUST_BIND_COARSE_INVERSE);
 }
 
 // Both colours, a thread a cell of the colour: half as many along x.
-void GlMultigrid::smooth(std::size_t index, const GlBuffer& rhs) const {
+void GlMultigrid::smooth(std::size_t index, const gl::Buffer& rhs) const {
   const GlKernel& kernel = index == 0 ? m_finestSmooth : m_smooth;
   bind(index, rhs);
   kernel.set(DUST_UNIFORM_A, m_levels[index].n);
@@ -76,7 +76,7 @@ void GlMultigrid::smooth(std::size_t index, const GlBuffer& rhs) const {
   }
 }
 
-void GlMultigrid::cycle(std::size_t index, const GlBuffer& rhs) const {
+void GlMultigrid::cycle(std::size_t index, const gl::Buffer& rhs) const {
   const Level& level = m_levels[index];
   if (level.n == shared::kDustCoarsest) {
     bind(index, rhs);
@@ -102,7 +102,7 @@ void GlMultigrid::cycle(std::size_t index, const GlBuffer& rhs) const {
   smooth(index, rhs);
 }
 
-void GlMultigrid::solve(const GlBuffer& divergence, int cycles) {
+void GlMultigrid::solve(const gl::Buffer& divergence, int cycles) {
   m_levels[0].pressure.clear();
   for (int i = 0; i < cycles; ++i) cycle(0, divergence);
 }

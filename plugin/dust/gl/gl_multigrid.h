@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "dust/gl/gl_buffer.h"
 #include "dust/gl/gl_kernel.h"
+#include "gl/buffer.h"
 
 namespace rubble::dust {
 
@@ -13,24 +13,24 @@ class GlMultigrid {
   explicit GlMultigrid(const GlKernelSource& source);
 
   /// Takes over the solids. `air`: DUST_BIND_AIR.
-  void setAir(const GlBuffer& air, bool anySolid);
+  void setAir(const gl::Buffer& air, bool anySolid);
   /// From zero pressure; `divergence` is the right-hand side.
-  void solve(const GlBuffer& divergence, int cycles);
-  const GlBuffer& pressure() const { return m_levels[0].pressure; }
+  void solve(const gl::Buffer& divergence, int cycles);
+  const gl::Buffer& pressure() const { return m_levels[0].pressure; }
 
  private:
   struct Level {
     int n;
-    GlBuffer pressure;  // (n^3) [m^2/s]
-    GlBuffer rhs;       // (n^3) [1/s]; empty on the finest level
-    GlBuffer inverse;   // (n^3) [m^2]
-    GlBuffer weights;   // (6 n^3) [1/m^2]; empty on the finest level
+    gl::Buffer pressure;  // (n^3) [m^2/s]
+    gl::Buffer rhs;       // (n^3) [1/s]; empty on the finest level
+    gl::Buffer inverse;   // (n^3) [m^2]
+    gl::Buffer weights;   // (6 n^3) [1/m^2]; empty on the finest level
   };
 
-  void bind(std::size_t level, const GlBuffer& rhs) const;
+  void bind(std::size_t level, const gl::Buffer& rhs) const;
   void bindCoarse(const Level& coarse) const;
-  void cycle(std::size_t level, const GlBuffer& rhs) const;
-  void smooth(std::size_t level, const GlBuffer& rhs) const;
+  void cycle(std::size_t level, const gl::Buffer& rhs) const;
+  void smooth(std::size_t level, const gl::Buffer& rhs) const;
 
   const GlKernelSource& m_source;
   GlKernel m_inverse, m_finestWeights, m_weights;

@@ -20,8 +20,8 @@ GlTotals::GlTotals(const GlKernelSource& source, double volume)
       m_chunks(chunksOf(source.n())),
       m_sum(source.build("sums.comp")),
       m_values(2 * std::size_t(m_chunks + kSides)) {
-  m_sums = bufferOf<float>(m_values.size());
-  for (Flight& f : m_flights) f.copy = GlBuffer(m_values.size() * sizeof(float), GL_STREAM_READ);
+  m_sums = gl::bufferOf<float>(m_values.size());
+  for (Flight& f : m_flights) f.copy = gl::Buffer(m_values.size() * sizeof(float), GL_STREAM_READ);
 }
 
 GlTotals::~GlTotals() {
@@ -30,16 +30,16 @@ GlTotals::~GlTotals() {
   }
 }
 
-void GlTotals::update(const GlBuffer& density, const GlBuffer& outflow, double emitted, double outside) {
+void GlTotals::update(const gl::Buffer& density, const gl::Buffer& outflow, double emitted, double outside) {
   receive();
   // All under way: these sums are left out. Nothing is lost, the next ones hold what went before.
   std::size_t free = 0;
   while (free < kFlights && m_flights[(m_oldest + free) % kFlights].fence != nullptr) ++free;
   if (free == kFlights) return;
 
-  density.bind(DUST_BIND_DENSITY);
-  outflow.bind(DUST_BIND_OUTFLOW);
-  m_sums.bind(DUST_BIND_LIST);
+  density.bindStorage(DUST_BIND_DENSITY);
+  outflow.bindStorage(DUST_BIND_OUTFLOW);
+  m_sums.bindStorage(DUST_BIND_LIST);
   m_sum.run(m_chunks + kSides);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "dust/gl/gl_buffer.h"
 #include "dust/gl/gl_kernel.h"
+#include "gl/buffer.h"
 #include "rubble/dust.h"
 
 namespace rubble::dust {
@@ -21,12 +21,12 @@ class GlTotals {
 
   /// Takes what has arrived, then sends for the sums of now. `outflow`: DUST_BIND_OUTFLOW. `emitted` and
   /// `outside` [kg] are those of now; they are reported with the sums.
-  void update(const GlBuffer& density, const GlBuffer& outflow, double emitted, double outside);
+  void update(const gl::Buffer& density, const gl::Buffer& outflow, double emitted, double outside);
   const DustTotals& arrived() const { return m_arrived; }
 
  private:
   struct Flight {
-    GlBuffer copy;
+    gl::Buffer copy;
     GLsync fence = nullptr;
     double emitted = 0, outside = 0;
   };
@@ -39,7 +39,7 @@ class GlTotals {
   double m_volume;
   int m_chunks;  // of cells, in front of the six sides
   GlKernel m_sum;
-  GlBuffer m_sums;  // vec2 (value, remainder) of every chunk and side
+  gl::Buffer m_sums;  // vec2 (value, remainder) of every chunk and side
   std::array<Flight, kFlights> m_flights;
   std::size_t m_oldest = 0;
   std::vector<float> m_values;

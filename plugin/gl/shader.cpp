@@ -1,12 +1,13 @@
-#include "render/shader.h"
+#include "gl/shader.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "rubble/machine_error.h"
 
-namespace rubble::render {
+namespace rubble::gl {
 namespace {
 
 constexpr int kMaxIncludeDepth = 8;
@@ -30,34 +31,29 @@ void splice(const std::string& directory, const std::string& file, int depth, st
   }
 }
 
-std::string shaderLog(GLuint shader) {
+// Log of a shader or program, by its pair of functions.
+template <class GetLength, class GetLog>
+std::string logOf(GLuint id, GetLength getLength, GetLog getLog) {
   GLint length = 0;
-  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-  std::string log(std::size_t(length), '\0');
-  if (length > 0) glGetShaderInfoLog(shader, length, nullptr, log.data());
-  return log;
-}
-
-std::string programLog(GLuint program) {
-  GLint length = 0;
-  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(std::size_t(length), '\0');
-  if (length > 0) glGetProgramInfoLog(program, length, nullptr, log.data());
+  getLength(id, GL_INFO_LOG_LENGTH, &length);
+  std::string log(std::size_t(std::max(length, 0)), '\0');
+  if (length > 0) getLog(id, length, nullptr, log.data());
   return log;
 }
 
 ShaderName compile(const std::string& directory, const Stage& stage) {
   const std::string text =
-      "#version 430 core\n" + std::string(stage.defines) + "#line 1\n" + readShader(directory, stage.file);
+      "#version 430 core\n" + stage.defines + "#line 1\n" + readShader(directory, stage.file);
   ShaderName shader(glCreateShader(stage.type));
   if (shader.id() == 0)
-    throw MachineError(std::string("shader ") + stage.file + ": this context cannot make such a shader");
+    throw MachineError("shader " + stage.file + ": this context cannot make such a shader");
   const char* source = text.c_str();
   glShaderSource(shader.id(), 1, &source, nullptr);
   glCompileShader(shader.id());
   GLint ok = GL_FALSE;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &ok);
-  if (ok != GL_TRUE) throw MachineError(std::string("shader ") + stage.file + ": " + shaderLog(shader.id()));
+  if (ok != GL_TRUE)
+    throw MachineError("shader " + stage.file + ": " + logOf(shader.id(), glGetShaderiv, glGetShaderInfoLog));
   return shader;
 }
 
@@ -76,14 +72,15 @@ ProgramName makeProgram(const std::string& shaderDirectory, std::initializer_lis
   for (const Stage& stage : stages) {
     shaders.push_back(compile(shaderDirectory, stage));
     glAttachShader(program.id(), shaders.back().id());
-    names += std::string(names.empty() ? "" : ", ") + stage.file;
+    names += (names.empty() ? "" : ", ") + stage.file;
   }
   glLinkProgram(program.id());
   for (const ShaderName& shader : shaders) glDetachShader(program.id(), shader.id());
   GLint ok = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
-  if (ok != GL_TRUE) throw MachineError("shaders " + names + ": " + programLog(program.id()));
+  if (ok != GL_TRUE)
+    throw MachineError("shaders " + names + ": " + logOf(program.id(), glGetProgramiv, glGetProgramInfoLog));
   return program;
 }
 
-}  // namespace rubble::render
+}  // namespace rubble::gl

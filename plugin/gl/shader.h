@@ -4,14 +4,14 @@
 #include <initializer_list>
 #include <string>
 
-#include "render/gl_object.h"
+#include "gl/name.h"
 
-namespace rubble::render {
+namespace rubble::gl {
 
 struct Stage {
   GLenum type;
-  const char* file;          ///< relative to the shader directory
-  const char* defines = "";  ///< lines put behind #version
+  std::string file;          ///< relative to the shader directory
+  std::string defines = {};  ///< lines put behind #version
 };
 
 /// Compiles and links. Throws rubble::Error with file name and the driver's log.
@@ -21,4 +21,4 @@ ProgramName makeProgram(const std::string& shaderDirectory, std::initializer_lis
 /// nested too deep.
 std::string readShader(const std::string& shaderDirectory, const std::string& file);
 
-}  // namespace rubble::render
+}  // namespace rubble::gl
