@@ -28,7 +28,7 @@ class Stages : public DustGrid {
 
   /// dt is cut to [0, kDustMaxStep] (not a number counts as 0); with 0 the sources are added and nothing
   /// moves.
-  void step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) final;
+  void step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) override;
 
   virtual void addSources(std::span<const shared::DustSourceCell> sources) = 0;
   virtual void addForces(float dt) = 0;

@@ -7,6 +7,16 @@
 #include "rubble/machine_error.h"
 
 namespace rubble::gl {
+namespace {
+
+constexpr int kMostErrors = 64;
+
+}  // namespace
+
+void discardErrors() {
+  for (int i = 0; i < kMostErrors && glGetError() != GL_NO_ERROR; ++i) {
+  }
+}
 
 void checkGl(const char* what) {
   const GLenum error = glGetError();

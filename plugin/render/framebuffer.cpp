@@ -2,20 +2,25 @@
 #include <algorithm>
 #include <array>
 
+#include "gl/capabilities.h"
 #include "gl/error.h"
 #include "gl/framebuffer.h"
+#include "gl/guest.h"
 #include "gl/texture.h"
 #include "rubble/render.h"
 
 namespace rubble {
 
 struct Framebuffer::Impl {
+  gl::Capabilities capabilities;
   int width, height;
   gl::TextureName colour, depth;
   gl::FramebufferName framebuffer;
 };
 
 Framebuffer::Framebuffer(int width, int height) : m_impl(std::make_unique<Impl>()) {
+  m_impl->capabilities = gl::capabilitiesNow("Framebuffer");
+  const gl::Guest guest(m_impl->capabilities);
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (width < 1 || height < 1 || width > most || height > most) {
@@ -42,9 +47,8 @@ Image Framebuffer::readPixels() const {
   Image image{m_impl->width, m_impl->height, {}};
   const std::size_t row = std::size_t{4} * std::size_t(image.width);
   image.pixels.resize(row * std::size_t(image.height));
+  const gl::Guest guest(m_impl->capabilities);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, m_impl->framebuffer.id());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
   gl::checkGl("reading a picture");
   // OpenGL's first row is the lowest.

@@ -4,7 +4,11 @@
 #include <string>
 
 #include "base/stopwatch.h"
+#include "gl/bindings.h"
+#include "gl/capabilities.h"
 #include "gl/error.h"
+#include "gl/guest.h"
+#include "gl/raster.h"
 #include "gl/shader.h"
 #include "render/cell_body.h"
 #include "render/debris_batch.h"
@@ -28,23 +32,18 @@ constexpr float kShadowUnitBias = 2;
 // diagonals.
 constexpr float kShadowRoom = 1;
 constexpr float kBareShadowRoom = 2;  // the same in a scene without bodies [m]
+static_assert(RUBBLE_DUST_DEPTH_UNIT < gl::kGuestUnits &&
+                  RUBBLE_DUST_BOUNDS_BUFFER < gl::kGuestStorageBuffers &&
+                  RUBBLE_FRAME_BLOCK < gl::kGuestUniformBuffers && RUBBLE_DUST_LIGHT_IMAGE < gl::kGuestImages,
+              "what the shaders bind is given back to the caller");
 constexpr const char* kShadowPass = "#define RUBBLE_SHADOW_PASS\n";
 
-void checkContext() {
-  if (epoxy_gl_version() < 43 || !epoxy_is_desktop_gl()) {
-    throw Error("Renderer: needs a current OpenGL 4.3 core context, this one is " +
-                std::to_string(epoxy_gl_version() / 10) + "." + std::to_string(epoxy_gl_version() % 10));
-  }
-  GLint blocks = 0;
+const RendererDef& checked(const RendererDef& def) {
+  GLint blocks = 0, most = 1;
   glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
   if (blocks < 4)
     throw Error("Renderer: needs 4 storage buffers in vertex shaders, the driver has " +
                 std::to_string(blocks));
-}
-
-const RendererDef& checked(const RendererDef& def) {
-  checkContext();
-  GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   const bool power = def.samples == 1 || def.samples == 2 || def.samples == 4 || def.samples == 8;
   if (!power)
@@ -102,8 +101,12 @@ struct Renderer::Impl {
     Eigen::Vector3f colour;
   };
 
-  explicit Impl(const RendererDef& rendererDef)
-      : def(checked(rendererDef)),
+  explicit Impl(const RendererDef& rendererDef) : Impl(rendererDef, gl::capabilitiesNow("Renderer")) {}
+  Impl(const RendererDef& rendererDef, const gl::Capabilities& current)
+      : Impl(rendererDef, current, gl::Guest(current)) {}
+  Impl(const RendererDef& rendererDef, const gl::Capabilities& current, const gl::Guest&)
+      : capabilities(current),
+        def(checked(rendererDef)),
         cellProgram(solidProgram(def.shaderDirectory, "draw/cells.vert")),
         debrisProgram(solidProgram(def.shaderDirectory, "draw/debris.vert")),
         propProgram(solidProgram(def.shaderDirectory, "draw/prop.vert")),
@@ -130,6 +133,7 @@ struct Renderer::Impl {
     return it->second;
   }
   PropId addProp(const Shape& shape, const PropLook& look) {
+    const gl::Guest guest(capabilities);
     const PropId id{nextId++};
     props.try_emplace(id, shape, look);
     return id;
@@ -159,6 +163,7 @@ struct Renderer::Impl {
   void composite(const FrameTarget& target);
   void setSolidState();
 
+  gl::Capabilities capabilities;
   RendererDef def;
   gl::ProgramName cellProgram, debrisProgram, propProgram, cellShadow, debrisShadow, propShadow,
       groundProgram, skyProgram, dustProgram, compositeProgram, compositeDust;
@@ -208,20 +213,11 @@ void Renderer::Impl::upload(const Camera& camera, const Lighting& lighting, cons
   frameBuffer.bindBase(GL_UNIFORM_BUFFER, RUBBLE_FRAME_BLOCK);
 }
 
+// Beside the defaults that gl::Guest has set.
 void Renderer::Impl::setSolidState() {
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_FRAMEBUFFER_SRGB);  // composite.frag encodes
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glEnable(GL_MULTISAMPLE);
   glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_CULL_FACE);
-  glCullFace(GL_BACK);
-  glFrontFace(GL_CCW);
 }
 
 void Renderer::Impl::drawShadows() {
@@ -296,14 +292,14 @@ void Renderer::Impl::marchDust() {
 
 void Renderer::Impl::composite(const FrameTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-  glViewport(0, 0, target.width, target.height);
+  gl::setViewport(target.width, target.height);
+  // The target may have a second draw buffer, which composite.frag would fill with anything.
+  glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   bindTexture(RUBBLE_COLOUR_UNIT, GL_TEXTURE_2D, scene.colour());
   bindTexture(RUBBLE_DUST_UNIT, GL_TEXTURE_2D, scene.dust());
   bindTexture(RUBBLE_DUST_DEPTH_UNIT, GL_TEXTURE_2D, scene.dustDistance());
   glUseProgram((hasDust ? compositeDust : compositeProgram).id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
-  glUseProgram(0);
 }
 
 Renderer::Renderer(const RendererDef& def) : m_impl(std::make_unique<Impl>(def)) {}
@@ -311,6 +307,7 @@ Renderer::~Renderer() = default;
 
 BodyId Renderer::addBody(const Asset& asset, CellJoining joining, const CellColours& colours) {
   asset.validate();
+  const gl::Guest guest(m_impl->capabilities);
   const BodyId id{m_impl->nextId++};
   m_impl->bodies.try_emplace(id, asset, joining, colours);
   return id;
@@ -323,6 +320,7 @@ void Renderer::removeBody(BodyId id) {
 
 void Renderer::updateBody(BodyId id, std::span<const ElementPose> poses,
                           std::span<const std::uint8_t> springsIntact) {
+  const gl::Guest guest(m_impl->capabilities, gl::Visit::Copy);
   m_impl->body(id, "Renderer::updateBody").cells.update(poses, springsIntact);
 }
 
@@ -396,6 +394,7 @@ void Renderer::addGroundPlane(float height, const Eigen::Vector3f& colour) {
 
 void Renderer::draw(const Camera& camera, const Lighting& lighting, const FrameTarget& target) {
   Impl& r = *m_impl;
+  const gl::Guest guest(r.capabilities);
   r.times = {};
   r.timed(r.times.upload, [&] { r.upload(camera, lighting, target); });
   r.setSolidState();

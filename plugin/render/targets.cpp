@@ -3,6 +3,7 @@
 #include <array>
 
 #include "gl/framebuffer.h"
+#include "gl/raster.h"
 #include "gl/texture.h"
 
 namespace rubble::render {
@@ -11,6 +12,7 @@ namespace {
 constexpr GLenum kColourFormat = GL_RGBA16F;  // light, before the tone curve
 constexpr GLenum kDepthFormat = GL_DEPTH_COMPONENT32F;
 constexpr GLenum kShadowFormat = GL_DEPTH_COMPONENT24;
+constexpr float kFarthest = 1;
 
 }  // namespace
 
@@ -27,9 +29,8 @@ ShadowMap::ShadowMap(int size) : m_size(size) {
 
 void ShadowMap::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer.id());
-  glViewport(0, 0, m_size, m_size);
-  glClearDepth(1);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl::setViewport(m_size, m_size);
+  glClearBufferfv(GL_DEPTH, 0, &kFarthest);
 }
 
 void SceneTargets::resize(int width, int height) {
@@ -53,9 +54,8 @@ void SceneTargets::resize(int width, int height) {
 
 void SceneTargets::beginScene() const {
   glBindFramebuffer(GL_FRAMEBUFFER, m_samples > 1 ? m_sampledScene.id() : m_scene.id());
-  glViewport(0, 0, m_width, m_height);
-  glClearDepth(1);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl::setViewport(m_width, m_height);
+  glClearBufferfv(GL_DEPTH, 0, &kFarthest);
 }
 
 void SceneTargets::resolve() const {
@@ -68,7 +68,7 @@ void SceneTargets::resolve() const {
 
 void SceneTargets::beginDust() const {
   glBindFramebuffer(GL_FRAMEBUFFER, m_dustFramebuffer.id());
-  glViewport(0, 0, (m_width + 1) / 2, (m_height + 1) / 2);
+  gl::setViewport((m_width + 1) / 2, (m_height + 1) / 2);
 }
 
 }  // namespace rubble::render

@@ -1,5 +1,4 @@
 #include "dust/gl/gl_dust.h"
-#include "rubble/machine_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +6,9 @@
 #include <vector>
 
 #include "dust/definition.h"
+#include "gl/bindings.h"
 #include "gl/error.h"
+#include "rubble/machine_error.h"
 #include "shared/dust.h"
 
 namespace rubble::dust {
@@ -16,14 +17,11 @@ namespace {
 
 using shared::vec4;
 
-// After the definition is checked and before the first GL object. Returns the directory, so that it stands in
-// front of the other members.
-const std::string& checkedContext(const Lattice& lattice, const std::string& shaderDirectory) {
-  if (epoxy_gl_version() < 43 || !epoxy_is_desktop_gl()) {
-    throw MachineError("dust: the GL back end needs a current OpenGL 4.3 context, this one is " +
-                       std::to_string(epoxy_gl_version() / 10) + "." +
-                       std::to_string(epoxy_gl_version() % 10));
-  }
+static_assert(DUST_BIND_LIST < gl::kGuestStorageBuffers && DUST_BIND_PARAMS < gl::kGuestUniformBuffers,
+              "what the kernels bind is given back to the caller");
+
+// Before the first GL object. Returns the directory, so that it stands in front of the other members.
+const std::string& checkedDriver(const Lattice& lattice, const std::string& shaderDirectory) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   const auto largest = GLint64(lattice.cells() * sizeof(vec4));
@@ -34,11 +32,25 @@ const std::string& checkedContext(const Lattice& lattice, const std::string& sha
   return shaderDirectory;
 }
 
+gl::Capabilities checkedCapabilities(const DustGridDef& def) {
+  checkDefinition(def);
+  return gl::capabilitiesNow("dust: the GL back end");
+}
+
 }  // namespace
 
 GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory)
+    : GlDust(def, shaderDirectory, checkedCapabilities(def)) {}
+
+GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory,
+               const gl::Capabilities& capabilities)
+    : GlDust(def, shaderDirectory, capabilities, gl::Guest(capabilities)) {}
+
+GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory,
+               const gl::Capabilities& capabilities, const gl::Guest&)
     : Stages(def),
-      m_source(checkedContext(m_lattice, shaderDirectory), def.resolution),
+      m_capabilities(capabilities),
+      m_source(checkedDriver(m_lattice, shaderDirectory), def.resolution),
       m_addSources(m_source.build("add_sources.comp")),
       m_curl(m_source.build("curl.comp")),
       m_forces(m_source.build("forces.comp")),
@@ -69,6 +81,12 @@ GlDust::GlDust(const DustGridDef& def, const std::string& shaderDirectory)
   setStep(0);
   m_pressure.setAir(m_air, false);
   gl::checkGl("creation of a dust grid");
+}
+
+void GlDust::step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) {
+  const gl::Guest guest(m_capabilities);
+  Stages::step(dt, sources, obstacles);
+  gl::checkGl("a step of the dust grid");
 }
 
 // The constants of a stage. Bound each time: another part of the program may use the binding point.
@@ -200,6 +218,7 @@ const gl::Buffer& GlDust::bufferOf(Field field) const {
 }
 
 void GlDust::read(Field field, std::vector<float>& values) const {
+  const gl::Guest guest(m_capabilities, gl::Visit::Copy);
   values.resize(valuesOf(field));
   bufferOf(field).read(std::as_writable_bytes(std::span(values)));
 }
@@ -207,6 +226,7 @@ void GlDust::read(Field field, std::vector<float>& values) const {
 void GlDust::write(Field field, std::span<const float> values) {
   if (values.size() != valuesOf(field)) throw Error("dust: write: wrong number of values");
   if (field == Field::Pressure) throw Error("dust: write: the pressure is a result");
+  const gl::Guest guest(m_capabilities);
   bufferOf(field).write(std::as_bytes(values));
   if (field != Field::Air) return;
   m_params.bindBase(GL_UNIFORM_BUFFER, DUST_BIND_PARAMS);

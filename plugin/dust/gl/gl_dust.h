@@ -10,12 +10,16 @@
 #include "dust/gl/gl_totals.h"
 #include "dust/stages.h"
 #include "gl/buffer.h"
+#include "gl/capabilities.h"
+#include "gl/guest.h"
 
 namespace rubble::dust {
 
 class GlDust final : public Stages {
  public:
   GlDust(const DustGridDef& def, const std::string& shaderDirectory);
+
+  void step(float dt, std::span<const DustSource> sources, std::span<const DustObstacle> obstacles) override;
 
   void addSources(std::span<const shared::DustSourceCell> sources) override;
   void addForces(float dt) override;
@@ -35,11 +39,16 @@ class GlDust final : public Stages {
   std::uint32_t densityBuffer() const override { return m_density.id(); }
 
  private:
+  GlDust(const DustGridDef& def, const std::string& shaderDirectory, const gl::Capabilities& capabilities);
+  // The guest lives until everything is made.
+  GlDust(const DustGridDef& def, const std::string& shaderDirectory, const gl::Capabilities& capabilities,
+         const gl::Guest&);
   void setStep(float dt);
   template <class T>
   void sendList(std::span<const T> items);
   const gl::Buffer& bufferOf(Field field) const;
 
+  gl::Capabilities m_capabilities;
   GlKernelSource m_source;
   GlKernel m_addSources, m_curl, m_forces, m_obstacles, m_faceVelocities, m_divergenceOf;
   GlKernel m_projectFaces, m_projectCells, m_advect, m_correct, m_courant, m_schedule, m_sweep;

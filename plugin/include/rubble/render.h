@@ -1,6 +1,13 @@
 // Draws cells, debris, rigid props and dust in the caller's current OpenGL 4.3+ core context. Takes plain
 // data: knows nothing of Bullet nor of the simulation. The same input gives the same image on the same GL
-// implementation.
+// implementation, whatever state the caller has set.
+//
+// Every call finds its own way about the context and leaves the caller's state as it was: bindings, viewport,
+// switches, masks, pixel storage. There are four exceptions. Errors that the caller has not fetched by
+// glGetError are discarded; no call throws for them. A conditional render in progress is ended before objects
+// are made, pixels read or pictures drawn, for OpenGL does not tell which it was. Queries in progress count what
+// is drawn. A program that the caller has deleted while it is in use is gone afterwards. A transform feedback in
+// progress is paused meanwhile, and goes on.
 #pragma once
 
 #include <Eigen/Core>
@@ -138,9 +145,8 @@ class Framebuffer {
   std::unique_ptr<Impl> m_impl;
 };
 
-/// Everything that is drawn. Every call needs the context it was made in to be current; draw() leaves its
-/// target bound and the rest of the GL state undefined. Bad ids, sizes and numbers are refused with
-/// rubble::Error.
+/// Everything that is drawn. Every call needs the context it was made in to be current. Bad ids, sizes and
+/// numbers are refused with rubble::Error.
 class Renderer {
  public:
   explicit Renderer(const RendererDef& def);
