@@ -24,6 +24,7 @@ class DebrisBatch {
 
   void clear() { m_pieces.clear(); }
   void add(const DebrisInstance& piece) { m_pieces.push_back(piece); }
+  bool empty() const { return m_pieces.empty(); }
 
   /// Leaves out pieces too small to be seen, sorts the others by cell (keeping their order) and uploads.
   void prepare(const CellBody& body, const PieceView& view);

@@ -93,6 +93,7 @@ struct Renderer::Impl {
   struct Body {
     CellBody cells;
     DebrisBatch debris;
+    bool removed = false;  // kept for its debris alone
     Body(const Asset& asset, CellJoining joining, const CellColours& colours)
         : cells(asset, joining, colours), debris(cells) {}
   };
@@ -127,7 +128,7 @@ struct Renderer::Impl {
 
   Body& body(BodyId id, const char* caller) {
     const auto it = bodies.find(id);
-    if (it == bodies.end()) {
+    if (it == bodies.end() || it->second.removed) {
       throw Error(std::string(caller) + ": there is no body " + std::to_string(std::uint32_t(id)));
     }
     return it->second;
@@ -149,6 +150,8 @@ struct Renderer::Impl {
     milliseconds += watch.lap();
   }
 
+  void checkPiece(const DebrisInstance& piece) const;
+  void forgetRemoved();
   Eigen::AlignedBox3f shadowBounds() const;
 
   // Stages of draw(), in order.
@@ -185,6 +188,29 @@ struct Renderer::Impl {
   DrawCounts counts;
 };
 
+void Renderer::Impl::checkPiece(const DebrisInstance& piece) const {
+  const auto it = bodies.find(piece.body);
+  const bool isForgotten = it == bodies.end() && std::uint32_t(piece.body) < nextId &&
+                           !props.contains(PropId{std::uint32_t(piece.body)});
+  if (isForgotten) return;
+  if (it == bodies.end()) {
+    throw Error("Renderer::setDebris: there is no body " + std::to_string(std::uint32_t(piece.body)));
+  }
+  if (piece.element >= it->second.cells.elementCount()) {
+    throw Error("Renderer::setDebris: there is no element " + std::to_string(piece.element));
+  }
+  if (!piece.position.allFinite() || !std::isfinite(piece.scale) || !piece.orientation.coeffs().allFinite()) {
+    throw Error("Renderer::setDebris: a piece of element " + std::to_string(piece.element) +
+                " is not finite");
+  }
+}
+
+// Not earlier than in draw(): debris of the tick in which a body was removed are handed over after that.
+void Renderer::Impl::forgetRemoved() {
+  std::erase_if(bodies,
+                [](const auto& entry) { return entry.second.removed && entry.second.debris.empty(); });
+}
+
 Eigen::AlignedBox3f Renderer::Impl::shadowBounds() const {
   Eigen::AlignedBox3f box;
   for (const auto& [id, body] : bodies) box.extend(body.cells.firstBounds());
@@ -202,7 +228,7 @@ void Renderer::Impl::upload(const Camera& camera, const Lighting& lighting, cons
   counts = {};
   for (auto& [id, body] : bodies) {
     body.debris.prepare(body.cells, view);
-    counts.cellTriangles += body.cells.visibleTriangles();
+    if (!body.removed) counts.cellTriangles += body.cells.visibleTriangles();
     counts.debrisTriangles += body.debris.triangles();
     counts.debrisPieces += body.debris.drawn();
     counts.debrisTooSmall += body.debris.tooSmall();
@@ -226,7 +252,8 @@ void Renderer::Impl::drawShadows() {
   glPolygonOffset(kShadowSlopeBias, kShadowUnitBias);
   glEnable(GL_DEPTH_CLAMP);  // what is nearer to the sun than the map still casts
   glUseProgram(cellShadow.id());
-  for (const auto& [id, body] : bodies) body.cells.draw();
+  for (const auto& [id, body] : bodies)
+    if (!body.removed) body.cells.draw();
   glUseProgram(debrisShadow.id());
   for (const auto& [id, body] : bodies) body.debris.draw(body.cells);
   glUseProgram(propShadow.id());
@@ -245,6 +272,7 @@ void Renderer::Impl::drawCells() {
   scene.beginScene();
   glUseProgram(cellProgram.id());
   for (const auto& [id, body] : bodies) {
+    if (body.removed) continue;
     setColour(RUBBLE_OUTER_UNIFORM, body.cells.colours().outer, 0);
     setColour(RUBBLE_INNER_UNIFORM, body.cells.colours().inner, 0);
     body.cells.draw();
@@ -314,8 +342,7 @@ BodyId Renderer::addBody(const Asset& asset, CellJoining joining, const CellColo
 }
 
 void Renderer::removeBody(BodyId id) {
-  m_impl->body(id, "Renderer::removeBody");
-  m_impl->bodies.erase(id);
+  m_impl->body(id, "Renderer::removeBody").removed = true;
 }
 
 void Renderer::updateBody(BodyId id, std::span<const ElementPose> poses,
@@ -325,18 +352,12 @@ void Renderer::updateBody(BodyId id, std::span<const ElementPose> poses,
 }
 
 void Renderer::setDebris(std::span<const DebrisInstance> debris) {
-  for (const DebrisInstance& piece : debris) {
-    if (piece.element >= m_impl->body(piece.body, "Renderer::setDebris").cells.elementCount()) {
-      throw Error("Renderer::setDebris: there is no element " + std::to_string(piece.element));
-    }
-    if (!piece.position.allFinite() || !std::isfinite(piece.scale) ||
-        !piece.orientation.coeffs().allFinite()) {
-      throw Error("Renderer::setDebris: a piece of element " + std::to_string(piece.element) +
-                  " is not finite");
-    }
-  }
+  for (const DebrisInstance& piece : debris) m_impl->checkPiece(piece);
   for (auto& [id, body] : m_impl->bodies) body.debris.clear();
-  for (const DebrisInstance& piece : debris) m_impl->bodies.at(piece.body).debris.add(piece);
+  for (const DebrisInstance& piece : debris) {
+    const auto it = m_impl->bodies.find(piece.body);
+    if (it != m_impl->bodies.end()) it->second.debris.add(piece);
+  }
 }
 
 void Renderer::setDust(const DustGrid* grid, const DustLook& look) {
@@ -395,6 +416,7 @@ void Renderer::addGroundPlane(float height, const Eigen::Vector3f& colour) {
 void Renderer::draw(const Camera& camera, const Lighting& lighting, const FrameTarget& target) {
   Impl& r = *m_impl;
   const gl::Guest guest(r.capabilities);
+  r.forgetRemoved();
   r.times = {};
   r.timed(r.times.upload, [&] { r.upload(camera, lighting, target); });
   r.setSolidState();

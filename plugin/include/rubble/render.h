@@ -5,9 +5,9 @@
 // Every call finds its own way about the context and leaves the caller's state as it was: bindings, viewport,
 // switches, masks, pixel storage. There are four exceptions. Errors that the caller has not fetched by
 // glGetError are discarded; no call throws for them. A conditional render in progress is ended before objects
-// are made, pixels read or pictures drawn, for OpenGL does not tell which it was. Queries in progress count what
-// is drawn. A program that the caller has deleted while it is in use is gone afterwards. A transform feedback in
-// progress is paused meanwhile, and goes on.
+// are made, pixels read or pictures drawn, for OpenGL does not tell which it was. Queries in progress count
+// what is drawn. A program that the caller has deleted while it is in use is gone afterwards. A transform
+// feedback in progress is paused meanwhile, and goes on.
 #pragma once
 
 #include <Eigen/Core>
@@ -157,13 +157,16 @@ class Renderer {
   /// Copies what it needs of the asset. The body stands at rest until its first update.
   BodyId addBody(const Asset& asset, CellJoining joining = CellJoining::Transitive,
                  const CellColours& colours = {});
+  /// It is drawn no more and its id is refused, but for its debris: see setDebris.
   void removeBody(BodyId body);
   /// Poses of all elements (n), and 1 for each unbroken spring (springs first; what follows, the anchors, is
   /// not looked at).
   void updateBody(BodyId body, std::span<const ElementPose> poses,
                   std::span<const std::uint8_t> springsIntact);
 
-  /// Copies the pieces; they are drawn until the next call. Pieces of removed bodies are refused.
+  /// Copies the pieces; they are drawn until the next call. Debris outlive their body: pieces of a removed
+  /// one are drawn from its cells, which are kept until the first draw() without any piece of it; after that
+  /// they are left out. Bodies that never were are refused.
   void setDebris(std::span<const DebrisInstance> debris);
 
   /// The grid is read in every draw() and must live until setDust(nullptr). Null: no dust.
