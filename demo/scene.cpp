@@ -76,8 +76,12 @@ void mergeAt(Document& document, const std::string& path, const Json& value, con
 
 std::string readFile(const std::filesystem::path& file, const std::string& name) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError(name, "", "there is no such file, must be a scene file or one of: " + sceneNames());
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::is_regular_file(status)) {
+    const std::string wrong = std::filesystem::is_directory(status) ? "is a folder"
+                              : std::filesystem::exists(status)     ? "is a pipe, a socket or a device"
+                                                                    : "there is no such file";
+    throw InputError(name, "", wrong + ", must be a scene file or one of: " + sceneNames());
   }
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw InputError(name, "", "is larger than 16 MB, must be a scene");

@@ -89,7 +89,11 @@ TEST_F(Program, EveryBadArgumentIsExitCode2AndOneLine) {
                                 "run small.json --no-render --frames ''",
                                 "run small.json --no-render --seed ''",
                                 "run ''",
-                                "report small.json --out small.json"}) {
+                                "report small.json --out small.json",
+                                "report small.json --sweep seed",
+                                "report small.json --sweep 'fps=60;0'",
+                                "report small.json --write none.md",
+                                "report small.json --write small.json"}) {
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments;
     const auto errors = result.error.rfind("rubble: error: ");
@@ -133,10 +137,10 @@ TEST_F(Program, ReportComparesPrecisionsAndSubsteps) {
 TEST_F(Program, FoldersAndPipesAreNoScenesAndNoAssets) {
   for (const char* name : {"a.json", "a.rubble-asset"}) {
     std::filesystem::create_directory(m_folder.path() / name);
-    expectError(run(std::string("info ") + name), 2, name);
+    expectError(run(std::string("info ") + name), 2, std::string(name) + ": is a folder");
     std::filesystem::remove(m_folder.path() / name);
     ASSERT_EQ(mkfifo((m_folder.path() / name).c_str(), 0600), 0);
-    expectError(run(std::string("info ") + name), 2, name);
+    expectError(run(std::string("info ") + name), 2, std::string(name) + ": is a pipe");
   }
 }
 

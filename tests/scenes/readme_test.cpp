@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "demo/command_line.h"
+#include "demo/input_error.h"
 #include "demo/marked_text.h"
 #include "scenes/scene_file.h"
 #include "support/folders.h"
@@ -80,7 +81,8 @@ TEST_F(Marked, AFileWithoutTheMarkersIsRefused) {
 // What a report depends on: every key of the scene, the presets among them; not how it looks.
 TEST_F(Marked, TheHashKnowsTheSceneAndNotItsLook) {
   const std::filesystem::path scene = m_folder.write("small.json", kSmallWall);
-  demo::ReportOptions options{.scene = scene.string()};
+  demo::ReportOptions options;
+  options.scene = scene.string();
   const std::string first = demo::reportHash(options);
   EXPECT_EQ(first.size(), 16u);
   options.overrides = {{"camera.field_of_view_degrees", "30"}, {"light.ambient", "0.5"}};
