@@ -104,13 +104,6 @@ bool isAssetFile(const std::string& nameOrPath) {
 }
 
 void describeAsset(const std::filesystem::path& file, std::ostream& out) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status))
-    throw InputError(file.string(), "", "there is no such file, must be a .rubble-asset");
-  // A pipe would be waited for without end.
-  if (!std::filesystem::is_regular_file(status))
-    throw InputError(file.string(), "", "is no file but a folder, pipe or device, must be a .rubble-asset");
   try {
     const Asset asset = load(file);
     out << file.string() << '\n';

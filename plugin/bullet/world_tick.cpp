@@ -89,8 +89,11 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->name = edem::bodyName(impl->id, m, *bodyDef.asset, elements.transform, toEigen(world.getGravity()));
   impl->advice = edem::sizeAndWeightAdvice(
       {*bodyDef.asset, m, bodyDef.model, elements.transform, toEigen(world.getGravity()), bodyDef.anchored});
-  if (!impl->advice.empty() && def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
-  if (bodyDef.anchored) logPrestress(impl->id, impl->name, bodyDef);
+  if (!impl->advice.empty()) {
+    if (def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
+  } else if (bodyDef.anchored) {
+    logPrestress(impl->id, impl->name, bodyDef);  // the advice would be its reason
+  }
   impl->world = this;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;

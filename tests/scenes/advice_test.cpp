@@ -82,8 +82,8 @@ TEST_F(Advice, AWallThatItsWeightCrushesIsTold) {
       warnings(object(R"("size": [300, 300, 30], "position": [0, 150, 0], "anchor": [0, -1, 0])") + "}"),
       "object 0 (concrete_soft, 300 m tall): its own weight presses its foot with 7.06 MPa, more than its "
       "compressive strength of 3.3 MPa; are these millimetres?\n");
-  // 100 m: 2.35 MPa
-  EXPECT_EQ(warnings(object(R"("size": [100, 100, 30], "position": [0, 50, 0], "anchor": [0, -1, 0])") + "}"),
+  // 30 m: 0.71 MPa
+  EXPECT_EQ(warnings(object(R"("size": [30, 30, 9], "position": [0, 15, 0], "anchor": [0, -1, 0])") + "}"),
             "");
   // Lying on its side it is 30 m tall.
   EXPECT_EQ(warnings(object(R"("size": [300, 300, 30], "rotation_degrees": [90, 0, 0])") + "}"), "");
