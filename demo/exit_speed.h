@@ -21,6 +21,7 @@ class ExitSpeed {
 
  private:
   Eigen::AlignedBox3f m_objects;
+  Eigen::AlignedBox3f m_last;  // the impactor's in the frame before
   btVector3 m_direction = btVector3(0, 0, 0);
   bool m_left = false;
   std::optional<double> m_speed;

@@ -87,9 +87,9 @@ TEST_F(Marked, TheHashKnowsTheSceneAndNotItsLook) {
   EXPECT_EQ(first.size(), 16u);
   options.overrides = {{"camera.field_of_view_degrees", "30"}, {"light.ambient", "0.5"}};
   EXPECT_EQ(demo::reportHash(options), first);
-  for (const auto& [key, value] : {std::pair("objects.0.material.friction", "0.61"),
-                                   std::pair("impactors.0.velocity", "[0,0,10.5]"), std::pair("seed", "7"),
-                                   std::pair("objects.0.anchor", "[0,1,0]"), std::pair("debris", "null")}) {
+  for (const auto& [key, value] :
+       {std::pair("objects.0.material.friction", "0.61"), std::pair("impactors.0.velocity", "[0,0,10.5]"),
+        std::pair("seed", "7"), std::pair("objects.0.anchor", "[0,1,0]"), std::pair("debris", "null")}) {
     options.overrides = {{key, value}};
     EXPECT_NE(demo::reportHash(options), first) << key;
   }

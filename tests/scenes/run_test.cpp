@@ -110,6 +110,16 @@ TEST_F(Run, CountsAddUpToWhatWasCooked) {
   EXPECT_NE(summary.str().find(std::to_string(counts.crushed) + of), std::string::npos) << summary.str();
 }
 
+// 0.67 m a frame: in front of the wall in one frame, behind it in the next.
+TEST_F(Run, AFastBallHasAnExitSpeedToo) {
+  run({{"impactors.0.velocity", "[0,0,60]"},
+       {"objects.0.material.tensile_strength", "3e3"},
+       {"objects.0.material.compressive_strength", "3e4"}});
+  ASSERT_TRUE(m_summary.exitSpeed.has_value());
+  EXPECT_GT(*m_summary.exitSpeed, 0);
+  EXPECT_LT(*m_summary.exitSpeed, 60);
+}
+
 TEST_F(Run, MassIsTheSolidsAndStays) {
   const std::vector<Json> frames = run();
   for (const Json& frame : frames) {

@@ -93,9 +93,10 @@ std::unique_ptr<DustGrid> createDustGridCpu(const DustGridDef& def);
 /// Compute shaders in the current GL 4.3+ context. Throws rubble::Error without one. `shaderDirectory` holds
 /// dust/*.comp.
 ///
-/// This call, step() and the reading of fields depend on none of the caller's GL state and leave it as it was,
-/// with these exceptions: errors that the caller has not fetched by glGetError are discarded, a conditional
-/// render in progress is ended (not by reading), a program that was deleted while it is in use is gone.
+/// This call, step() and the reading of fields depend on none of the caller's GL state and leave it as it
+/// was, with these exceptions: errors that the caller has not fetched by glGetError are discarded, a
+/// conditional render in progress is ended (not by reading), a program that was deleted while it is in use is
+/// gone.
 std::unique_ptr<DustGrid> createDustGridGl(const DustGridDef& def, const std::string& shaderDirectory);
 
 /// Mass extinction of a cloud of grains of radius R [m] and density rho [kg/m^3]: 3 / (2 rho R_dust)
