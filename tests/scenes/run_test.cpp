@@ -90,7 +90,8 @@ TEST_F(Run, CountsAddUpToWhatWasCooked) {
                                             {"objects.0.material.crush_efficiency", "1e-6"}};
   const std::vector<Json> frames = run(weak);
   const demo::Scene scene = demo::loadScene(m_folder.write("small.json", kSmallWall), weak);
-  const Asset& asset = *demo::cookObjects(scene, {}, strictLog()).front();
+  const std::shared_ptr<const Asset> cooked = demo::cookObjects(scene, {}, strictLog()).front();
+  const Asset& asset = *cooked;
   for (const Json& frame : frames) {
     const Json &elements = frame["elements"], &springs = frame["springs"];
     EXPECT_EQ(elements["intact"].get<std::size_t>() + elements["crushed"].get<std::size_t>(),
