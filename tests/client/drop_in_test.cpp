@@ -35,6 +35,8 @@ TEST(DropIn, BreaksWhatItLoads) {
   expectABreak(RUBBLE_DROP_IN);
 }
 
+// Builds the plugin anew without sanitizers: once is enough.
+#ifndef RUBBLE_SANITIZED
 TEST(ClientProject, BuildsWithTheRuntimeAloneAndBreaksWhatItLoads) {
   const TestFolder folder;
   const std::string configure =
@@ -46,6 +48,7 @@ TEST(ClientProject, BuildsWithTheRuntimeAloneAndBreaksWhatItLoads) {
   ASSERT_EQ(build.exitCode, 0) << build.out << build.error;
   expectABreak(RUBBLE_CLIENT_BUILD "/client");
 }
+#endif
 
 TEST(DropIn, LinksNeitherGlNorCgal) {
   const TestFolder folder;
