@@ -26,7 +26,7 @@ constexpr int kMostCorrections = 50;
 constexpr double kSlow = 0.3;
 // Rotations since the stiffness was taken that change nothing in it [rad].
 constexpr double kSameAngle = 1e-5;
-// Part of a residual that one correction leaves: less than what the finite rotations add.
+// Part of a residual that the solver of one correction may leave; the next correction sees it again.
 constexpr double kSolveShare = 1e-3;
 
 constexpr const char* kIndefinite = "its stiffness is not positive definite";

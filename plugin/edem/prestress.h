@@ -1,6 +1,6 @@
 // The static state of an anchored body under gravity, so that it stands still from its first step without any
 // damping. A body that only stands on the ground has none of its own (it depends on what it touches): it is
-// not pre-stressed and settles by itself, a few millimetres at most for the soft presets.
+// not pre-stressed and settles by itself.
 #pragma once
 
 #include "edem/body.h"

@@ -1,6 +1,6 @@
-// The scene `wall` to the last bit: the same hashes in every build (optimised or not, sanitized or not) and
-// on every machine. A change that is meant to change the physics changes them; this prints the lines to put
-// into the tables, and the first of the whole wall's into rubble/version.h:
+// The scene `wall` to the last bit: the same hashes in every build, optimised or not, sanitized or not. A
+// change that is meant to change the physics changes them; this prints the lines to put into the tables, and
+// the first of the whole wall's into rubble/version.h:
 //
 //     build/release/tests/scenes/golden_test | grep now
 #include <gtest/gtest.h>
