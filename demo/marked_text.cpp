@@ -1,6 +1,7 @@
 #include "demo/marked_text.h"
 
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -28,7 +29,7 @@ std::string readAll(const std::filesystem::path& file) {
 std::size_t endOf(const std::string& text, std::size_t begin, const std::filesystem::path& file,
                   const std::string& command) {
   const std::size_t end = text.find(kEnd, begin);
-  const std::size_t next = text.find(kOpen + "rubble ", begin);
+  const std::size_t next = text.find(kOpen + "rubble", begin);  // of any program
   if (end == std::string::npos || next < end) {
     throw InputError("--write", file.string(),
                      "has no end behind the marker of \"" + command + "\", must have " + kEnd +
@@ -39,10 +40,10 @@ std::size_t endOf(const std::string& text, std::size_t begin, const std::filesys
 
 }  // namespace
 
-std::vector<MarkedPart> markedParts(const std::filesystem::path& file) {
+std::vector<MarkedPart> markedParts(const std::filesystem::path& file, const std::string& program) {
   const std::string text = readAll(file);
   std::vector<MarkedPart> parts;
-  const std::string open = "\n" + kOpen + "rubble ";
+  const std::string open = "\n" + kOpen + program + " ";
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at + 1)) {
     const std::size_t name = at + 1 + kOpen.size();
     const std::string command = text.substr(name, text.find(kClose, name) - name);
@@ -50,6 +51,12 @@ std::vector<MarkedPart> markedParts(const std::filesystem::path& file) {
     parts.push_back({command, text.substr(hash, text.find(kClose, hash) - hash)});
   }
   return parts;
+}
+
+std::string hashText(std::uint64_t hash) {
+  std::ostringstream text;
+  text << std::hex << std::setw(16) << std::setfill('0') << hash;
+  return text.str();
 }
 
 MarkedText::MarkedText(std::filesystem::path file, std::string command)

@@ -5,6 +5,7 @@
 //     <!-- end: depends on 0123456789abcdef -->
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,8 +17,12 @@ struct MarkedPart {
   std::string command;    ///< of the first marker
   std::string dependsOn;  ///< of the second; empty before the first writing
 };
-/// All parts of a file whose command begins with "rubble ". Throws InputError for a part without an end.
-std::vector<MarkedPart> markedParts(const std::filesystem::path& file);
+/// All parts of a file whose command is of `program`, "rubble" or "rubble_bench". Throws InputError for a
+/// part without an end.
+std::vector<MarkedPart> markedParts(const std::filesystem::path& file, const std::string& program);
+
+/// What a second marker holds: 16 hexadecimal digits.
+std::string hashText(std::uint64_t hash);
 
 class MarkedText {
  public:

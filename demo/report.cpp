@@ -1,7 +1,6 @@
 #include "demo/report.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <sstream>
 
 #include "base/hash.h"
@@ -9,6 +8,7 @@
 #include "demo/frame.h"
 #include "demo/input_error.h"
 #include "demo/machine.h"
+#include "demo/markdown_table.h"
 #include "demo/marked_text.h"
 #include "demo/output_file.h"
 #include "demo/progress.h"
@@ -87,12 +87,6 @@ Outcome measure(const Scene& scene, Progress& progress, double done, double shar
   return outcome;
 }
 
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
-}
-
 std::string lastPart(const std::string& path) {
   return path.substr(path.rfind('.') + 1);
 }
@@ -142,18 +136,12 @@ std::string csvOf(const std::vector<Column>& columns) {
 }
 
 std::string markdownOf(const std::vector<Column>& columns) {
-  std::ostringstream text;
-  text << '|';
-  for (const Column& c : columns) text << ' ' << c.title << " |";
-  text << "\n|";
-  for (std::size_t c = 0; c < columns.size(); ++c) text << "---|";
-  text << '\n';
-  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
-    text << '|';
-    for (const Column& c : columns) text << ' ' << c.values[row] << " |";
-    text << '\n';
+  TextRows rows(1 + columns.front().values.size());
+  for (const Column& c : columns) {
+    rows[0].push_back(c.title);
+    for (std::size_t row = 0; row < c.values.size(); ++row) rows[row + 1].push_back(c.values[row]);
   }
-  return text.str();
+  return markdownTable(rows);
 }
 
 // The arguments that make this report again.
@@ -198,9 +186,7 @@ std::string reportHash(const ReportOptions& options) {
   }
   hash.add(kSolverVersionFloat);
   hash.add(kSolverVersionDouble);
-  std::ostringstream text;
-  text << std::hex << std::setw(16) << std::setfill('0') << hash.value();
-  return text.str();
+  return hashText(hash.value());
 }
 
 void report(const ReportOptions& options, std::ostream& out) {

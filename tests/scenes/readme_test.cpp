@@ -22,19 +22,11 @@ demo::ReportOptions parse(const std::string& command) {
   return demo::parseCommandLine(int(raw.size()), raw.data()).report;
 }
 
-std::vector<std::filesystem::path> readmes() {
-  std::vector<std::filesystem::path> files = {sourceFolder() + "/README.md"};
-  for (const char* folder : {"plugin", "demo", "tests"})
-    for (const auto& file : std::filesystem::recursive_directory_iterator(sourceFolder() + "/" + folder))
-      if (file.path().extension() == ".md") files.push_back(file.path());
-  return files;
-}
-
 // Scenes, presets or the solver have changed since: write the table again, and read what it says now.
 TEST(Readme, TablesBelongToTheScenesAndTheSolverAsTheyAre) {
   int tables = 0;
   for (const std::filesystem::path& file : readmes()) {
-    for (const demo::MarkedPart& part : demo::markedParts(file)) {
+    for (const demo::MarkedPart& part : demo::markedParts(file, "rubble")) {
       ++tables;
       EXPECT_EQ(part.dependsOn, demo::reportHash(parse(part.command)))
           << "run: build/release/demo/" << part.command << " --write " << file.string();
@@ -64,17 +56,22 @@ TEST_F(Marked, TextBetweenTheMarkersIsReplacedAndNothingElse) {
   EXPECT_EQ(text(), "# Before\n\n<!-- rubble report a -->\nold\n" + end +
                         "\nbetween\n<!-- rubble report b -->\n\nnew\n\n"
                         "<!-- end: depends on 00000000000000bb -->\nafter\n");
-  const std::vector<demo::MarkedPart> parts = demo::markedParts(file());
+  const std::vector<demo::MarkedPart> parts = demo::markedParts(file(), "rubble");
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].command, "rubble report a");
   EXPECT_EQ(parts[0].dependsOn, "0000000000000000");
   EXPECT_EQ(parts[1].dependsOn, "00000000000000bb");
+  EXPECT_TRUE(demo::markedParts(file(), "rubble_bench").empty());
 }
 
 TEST_F(Marked, AFileWithoutTheMarkersIsRefused) {
   m_folder.write("notes.md", "# Notes\n<!-- rubble report a -->\n<!-- rubble report b -->\n");
   EXPECT_THROW(demo::MarkedText(file(), "rubble report c"), demo::InputError);
   EXPECT_THROW(demo::MarkedText(file(), "rubble report a"), demo::InputError);  // no end
+  m_folder.write("notes.md",
+                 "# Notes\n<!-- rubble report a -->\n<!-- rubble_bench b -->\n<!-- end: depends on 0 -->\n");
+  EXPECT_THROW(demo::markedParts(file(), "rubble"),
+               demo::InputError);  // that end is of another program's part
   EXPECT_THROW(demo::MarkedText(m_folder.path() / "none.md", "rubble report a"), demo::InputError);
 }
 

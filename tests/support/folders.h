@@ -1,7 +1,9 @@
 // Where the sources of the tests' build are.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace rubble::test {
 
@@ -9,5 +11,7 @@ namespace rubble::test {
 std::string sourceFolder();
 /// Its shaders.
 std::string shaderFolder();
+/// Every Markdown file of the project.
+std::vector<std::filesystem::path> readmes();
 
 }  // namespace rubble::test
