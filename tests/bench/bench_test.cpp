@@ -1,0 +1,84 @@
+// Tables in READMEs are written by `rubble_bench TOPIC --write`; here is told when they are out of date, and
+// the program writes one. What the numbers are is no test's business.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "bench/result_table.h"
+#include "bench/topic.h"
+#include "demo/input_error.h"
+#include "demo/marked_text.h"
+#include "scenes/child.h"
+#include "scenes/scene_file.h"
+#include "support/folders.h"
+
+namespace rubble::test {
+namespace {
+
+// The layer's results or the benchmark's inputs have changed since: write the table again, and read what it
+// says now.
+TEST(BenchReadme, TablesBelongToTheLayersAsTheyAre) {
+  std::set<std::string> written;
+  for (const std::filesystem::path& file : readmes()) {
+    for (const demo::MarkedPart& part : demo::markedParts(file, "rubble_bench")) {
+      const std::string name = part.command.substr(part.command.find(' ') + 1);
+      written.insert(name);
+      EXPECT_EQ(part.dependsOn, demo::hashText(benchTopic(name).hash()))
+          << "run: build/release/tests/bench/" << part.command << " --write " << file.string();
+    }
+  }
+  for (const BenchTopic& topic : benchTopics()) EXPECT_TRUE(written.contains(topic.name)) << topic.name;
+}
+
+TEST(BenchTopic, UnknownIsRefusedWithThoseThereAre) {
+  try {
+    benchTopic("edem");
+    FAIL();
+  } catch (const demo::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(benchTopics().front().name), std::string::npos) << error.what();
+  }
+}
+
+TEST(TimeText, HasThreeDigitsAndTheUnitThatSuits) {
+  EXPECT_EQ(timeText(1.304e-7), "130 ns");
+  EXPECT_EQ(timeText(1.8e-6), "1.8 us");
+  EXPECT_EQ(timeText(0.01824), "18.2 ms");
+  EXPECT_EQ(timeText(2), "2 s");
+}
+
+class BenchProgram : public testing::Test {
+ protected:
+  ChildResult run(const std::string& arguments) {
+    return runChild(std::string(RUBBLE_BENCH) + " " + arguments, m_folder.path());
+  }
+  TestFolder m_folder;
+};
+
+TEST_F(BenchProgram, WritesTheTableBetweenTheMarkers) {
+  const std::string file = m_folder.write(
+      "notes.md",
+      "# Notes\n\n<!-- rubble_bench debris -->\n<!-- end: depends on 0000000000000000 -->\nafter\n");
+  const ChildResult result = run("debris --benchmark_min_time=0 --benchmark_repetitions=1 --write " + file);
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_TRUE(text.str().starts_with("# Notes\n\n<!-- rubble_bench debris -->\n\n|  | time | a piece |\n"))
+      << text.str();
+  EXPECT_NE(text.str().find("\n| a step, all rest | "), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("Medians of 1; one core of "), std::string::npos) << text.str();
+  EXPECT_EQ(demo::markedParts(file, "rubble_bench").at(0).dependsOn,
+            demo::hashText(benchTopic("debris").hash()));
+}
+
+TEST_F(BenchProgram, RefusesWhatItDoesNotKnow) {
+  for (const char* bad : {"edem", "--write notes.md", "debris --fast", "debris --write none.md"}) {
+    const ChildResult result = run(bad);
+    EXPECT_EQ(result.exitCode, 2) << bad;
+    EXPECT_TRUE(result.error.starts_with("rubble_bench: error: ")) << bad << ": " << result.error;
+  }
+}
+
+}  // namespace
+}  // namespace rubble::test
