@@ -1,6 +1,7 @@
 #include "bench/result_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -39,7 +40,9 @@ std::optional<double> valueOf(const BenchColumn& column, const ResultTable::Run&
 
 std::string textOf(const BenchColumn& column, const std::vector<double>& values) {
   if (values.empty()) return "-";
-  return column.kind == Kind::Counter ? demo::rounded(median(values)) : timeText(median(values));
+  const double value = median(values);
+  if (column.kind == Kind::Count) return std::to_string(std::llround(value));
+  return column.kind == Kind::Counter ? demo::rounded(value) : timeText(value);
 }
 
 demo::TextRows transposed(const demo::TextRows& rows) {

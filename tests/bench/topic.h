@@ -13,11 +13,12 @@ struct BenchColumn {
     Time,      ///< processor time of an iteration
     ItemTime,  ///< the same over the items that the benchmark says it processes in an iteration
     Counter,   ///< a number that the benchmark counts
+    Count,     ///< the same, of whole things
     Seconds,   ///< a counter that holds seconds
   };
   std::string title;
   Kind kind = Kind::Time;
-  std::string counter;  ///< name of it, in Kind::Counter and Kind::Seconds
+  std::string counter;  ///< name of it, of Kind::Counter, Count and Seconds
 };
 
 struct BenchTopic {
@@ -37,6 +38,10 @@ const std::vector<BenchTopic>& benchTopics();
 /// The topic of that name. Throws demo::InputError, naming those there are.
 const BenchTopic& benchTopic(const std::string& name);
 
+BenchTopic cookTopic();
+BenchTopic cookStagesTopic();
 BenchTopic debrisTopic();
+BenchTopic dustTopic();
+BenchTopic pressureTopic();
 
 }  // namespace rubble::test
