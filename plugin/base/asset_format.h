@@ -2,8 +2,9 @@
 // padding never shows.
 //
 //   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | 8 counts u64 | the arrays,
-//   in that order
+//   in that order | in version 2 the static state: key u64, displacements 3 f64, rotations x y z w f64
 //
+// Version 1 has no static state and is written where there is none, so that older libraries read it.
 // The checksum covers everything behind it. The counts say how long the file must be.
 #pragma once
 
@@ -19,6 +20,7 @@ namespace rubble::base {
 
 inline constexpr std::array<char, 8> kAssetMagic = {'R', 'U', 'B', 'B', 'L', 'E', 'A', 'S'};
 inline constexpr std::uint32_t kAssetVersion = 1;
+inline constexpr std::uint32_t kAssetVersionWithRest = 2;
 
 enum AssetArray {
   kElements,
@@ -47,6 +49,9 @@ inline constexpr std::array<AssetRecord, kAssetArrays> kAssetRecords = {{{3 * 8 
                                                                          {4 + 4 + 3 * 4 + 3 * 4, "faces"},
                                                                          {5 * 4, "cells"}}};
 
+/// Bytes of the static state of so many elements.
+inline constexpr std::uint64_t kAssetRestBytes = 3 * 8 + 4 * 8, kAssetRestKeyBytes = 8;
+
 inline constexpr std::size_t kAssetChecksumOffset = kAssetMagic.size() + 4 + 4;
 /// The checksum covers the file from here on.
 inline constexpr std::size_t kAssetBodyOffset = kAssetChecksumOffset + 8;
@@ -74,6 +79,11 @@ void visitAssetFields(AssetType& asset, Field&& field) {
   for (auto& c : asset.cells)
     field(c.firstTriangle), field(c.outerTriangles), field(c.innerTriangles), field(c.firstFace),
         field(c.faceCount);
+  if (!asset.rest) return;
+  field(asset.rest->key);
+  for (auto& displacement : asset.rest->displacements) field(displacement);
+  for (auto& rotation : asset.rest->rotations)
+    for (int part = 0; part < 4; ++part) field(rotation.coeffs()[part]);
 }
 
 [[noreturn]] inline void refuseFile(const std::filesystem::path& file, const std::string& what) {

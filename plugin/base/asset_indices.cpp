@@ -196,6 +196,9 @@ void checkCounts(const Asset& asset) {
   checkNameable(asset.corners.size(), "corners");
   checkNameable(asset.triangles.size(), "triangles");
   checkNameable(asset.faces.size(), "faces");
+  if (!asset.rest) return;
+  checkLength(asset.rest->displacements.size(), n, "rest.displacements");
+  checkLength(asset.rest->rotations.size(), n, "rest.rotations");
 }
 
 void checkIndices(const Asset& asset) {

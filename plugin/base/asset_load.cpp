@@ -33,6 +33,7 @@ T decoded(const std::uint8_t* bytes) {
 }
 
 struct Header {
+  bool hasRest = false;
   std::uint64_t checksum = 0;
   double radius = 0;
   AssetCounts counts{};
@@ -141,13 +142,15 @@ Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std:
   const std::uint8_t* at = bytes.data() + kAssetMagic.size();
   const auto version = decoded<std::uint32_t>(at);
   const auto headerBytes = decoded<std::uint32_t>(at + 4);
-  if (version != kAssetVersion)
-    refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads version " +
-                         std::to_string(kAssetVersion) + ": cook it again");
+  if (version != kAssetVersion && version != kAssetVersionWithRest)
+    refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions " +
+                         std::to_string(kAssetVersion) + " and " + std::to_string(kAssetVersionWithRest) +
+                         ": cook it again");
   if (headerBytes != kAssetHeaderBytes)
     refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
                          " bytes; allowed: " + std::to_string(kAssetHeaderBytes));
   Header header;
+  header.hasRest = version == kAssetVersionWithRest;
   header.checksum = decoded<std::uint64_t>(bytes.data() + kAssetChecksumOffset);
   header.radius = decoded<double>(bytes.data() + kAssetBodyOffset);
   for (std::size_t a = 0; a < kAssetArrays; ++a)
@@ -155,7 +158,8 @@ Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std:
   return header;
 }
 
-void checkLength(const std::filesystem::path& file, std::uint64_t size, const AssetCounts& counts) {
+void checkLength(const std::filesystem::path& file, std::uint64_t size, const Header& header) {
+  const AssetCounts& counts = header.counts;
   if (size > kMostAssetBytes)
     refuseFile(file,
                "has " + std::to_string(size) + " bytes; allowed: up to " + std::to_string(kMostAssetBytes));
@@ -168,6 +172,14 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const As
       refuseFile(file, text.str());
     }
     left -= counts[a] * kAssetRecords[a].bytes;
+  }
+  if (header.hasRest) {
+    // The elements fitted into the file with more bytes each, so nothing overflows.
+    const std::uint64_t bytes = kAssetRestKeyBytes + counts[kElements] * kAssetRestBytes;
+    if (left < bytes)
+      refuseFile(file, "is cut off or damaged: " + std::to_string(left) + " bytes are left for the " +
+                           std::to_string(bytes) + " of its static state");
+    left -= bytes;
   }
   if (left != 0) refuseFile(file, "is damaged: " + std::to_string(left) + " bytes too many at its end");
   if (counts[kElements] != counts[kCells])
@@ -196,6 +208,11 @@ Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::ui
   asset.triangles.resize(counts[kTriangles]);
   asset.faces.resize(counts[kFaces]);
   asset.cells.resize(counts[kCells]);
+  if (header.hasRest) {
+    asset.rest.emplace();
+    asset.rest->displacements.resize(counts[kElements]);
+    asset.rest->rotations.resize(counts[kElements]);
+  }
 
   BodyReader body(file, stream, size - kAssetBodyOffset);
   body.get(asset.radius);
@@ -214,7 +231,7 @@ Asset loadFile(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
   const Header header = readHeader(file, stream, size);
-  checkLength(file, size, header.counts);
+  checkLength(file, size, header);
   checkChecksum(file, stream, size, header);
   Asset asset = readBody(file, stream, size, header);
   try {

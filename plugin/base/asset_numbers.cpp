@@ -21,6 +21,8 @@ constexpr double kLeastArea = 1e-30;
 constexpr double kLeastCellShare = 1e-6;
 // A normal is stored in floats; this is a few hundred times their rounding, and far from any wrong normal.
 constexpr float kUnitTolerance = 1e-4f;
+// Of a quaternion in doubles: far above their rounding, and far below what a force would show.
+constexpr double kUnitQuaternion = 1e-9;
 constexpr double kTolerance = 1e-6;  // for sums of up to ten million doubles
 
 template <class Vector>
@@ -89,6 +91,21 @@ void checkElements(const Asset& asset, const AssetScale& scale) {
                 ", the volume of the elements to that of the bounds");
 }
 
+void checkRest(const Asset& asset, const AssetScale& scale) {
+  if (!asset.rest) return;
+  const AssetRest& rest = *asset.rest;
+  const double diagonal = scale.bounds.diagonal().norm();
+  for (std::size_t i = 0; i < asset.elementCount(); ++i) {
+    const double moved = rest.displacements[i].norm();
+    if (!(moved <= diagonal))
+      refuseAsset("rest.displacements[", i, "] has length ", moved,
+                  " m; allowed: up to the bounds' diagonal, ", diagonal);
+    const double norm = rest.rotations[i].norm();
+    if (!(std::abs(norm - 1) <= kUnitQuaternion))
+      refuseAsset("rest.rotations[", i, "] has length ", norm, "; allowed: 1");
+  }
+}
+
 }  // namespace
 
 AssetScale checkNumbers(const Asset& asset) {
@@ -109,6 +126,7 @@ AssetScale checkNumbers(const Asset& asset) {
     checkUnit(asset.faces[f].normal, "faces", f);
     checkPlace(asset.faces[f].centroid, "faces", f, ".centroid");
   }
+  checkRest(asset, scale);
   return scale;
 }
 

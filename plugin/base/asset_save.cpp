@@ -130,6 +130,7 @@ AssetCounts countsOf(const Asset& asset, const std::filesystem::path& file) {
                               asset.faces.size(),     asset.cells.size()};
   std::uint64_t bytes = kAssetHeaderBytes;
   for (std::size_t a = 0; a < kAssetArrays; ++a) bytes += counts[a] * kAssetRecords[a].bytes;
+  if (asset.rest) bytes += kAssetRestKeyBytes + counts[kElements] * kAssetRestBytes;
   if (bytes > kMostAssetBytes)
     refuseFile(file, "would have " + std::to_string(bytes) + " bytes; allowed: up to " +
                          std::to_string(kMostAssetBytes));
@@ -145,7 +146,7 @@ void save(const Asset& asset, const std::filesystem::path& file) {
   PartialFile partial(file);
   Writer writer(partial);
   for (const char letter : kAssetMagic) writer.put(letter);
-  writer.put(kAssetVersion);
+  writer.put(asset.rest ? kAssetVersionWithRest : kAssetVersion);
   writer.put(std::uint32_t(kAssetHeaderBytes));
   writer.put(std::uint64_t{0});  // the checksum's place
   writer.startBody();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,18 @@ struct Cell {
   std::uint32_t faceCount;
 };
 
+/// The static state of an anchored body of the asset under gravity, kept so that bodies need not solve it
+/// again. It is checked before it is used: one of another material or gravity, or one that leaves forces
+/// unbalanced, is not taken. `rubble::prestress` (rubble/prestress.h) makes it.
+struct AssetRest {
+  /// Hash of what the state depends on: constants of the material, model, gravity, precision, and the asset's
+  /// elements, springs and anchors. Made and compared by the solver.
+  std::uint64_t key = 0;
+  std::vector<Eigen::Vector3d> displacements;  ///< asset axes [m] (n x 3)
+  /// Unit quaternions, asset axes (n x 4).
+  std::vector<Eigen::Quaternion<double, Eigen::DontAlign>> rotations;
+};
+
 struct Asset {
   // Elements: arrays of length n.
   double radius = 0;                       ///< r of every element [m]
@@ -81,6 +94,8 @@ struct Asset {
   std::vector<CellFace> faces;  ///< grouped by cell
   std::vector<Cell> cells;      ///< one an element (n)
 
+  std::optional<AssetRest> rest;  ///< none unless it was asked for
+
   std::size_t elementCount() const { return positions.size(); }
   double volume() const;  ///< of the solid [m^3]
   /// Mean element spacing h = (V / n)^(1/3) [m]; the h of the material's contact stiffness k_c = factor E h.
@@ -94,11 +109,13 @@ struct Asset {
   /// Throws rubble::Error with one line, the field, its index, its value and what is allowed, when a count,
   /// an index or a number is impossible: places beyond 1e9 m, solids over 1e6 m across, radii below 1e-6 m,
   /// elements nearer than half a radius to one another, or volumes, gyrations, areas and places that
-  /// contradict the cell's triangles. `load` has called it already. Linear time.
+  /// contradict the cell's triangles, or a static state that is not one an element, moves an element farther
+  /// than the solid is large, or turns it by no rotation. `load` has called it already. Linear time.
   void validate() const;
 };
 
-/// Writes a versioned little-endian file with sizes and a checksum; the file appears whole or not at all, and
+/// Writes a versioned little-endian file with sizes and a checksum, version 2 if the asset keeps a static
+/// state and version 1, which earlier libraries read too, if not; the file appears whole or not at all, and
 /// nothing stays beside it. Throws rubble::Error naming the file and the reason: an asset that is not valid
 /// or would take more than 32 GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);

@@ -112,7 +112,7 @@ TEST_F(AssetFile, IsRefusedWithAnyBitFlipped) {
 TEST_F(AssetFile, OfAnotherVersionIsRefusedByName) {
   std::string bytes = m_bytes;
   bytes[kVersionAt] = 77;
-  expectRefused(bytes, "has asset version 77; this library reads version 1");
+  expectRefused(bytes, "has asset version 77; this library reads versions 1 and 2");
 }
 
 TEST_F(AssetFile, OfAnotherKindIsRefusedByName) {
