@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -82,7 +83,7 @@ Problem problemOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
 }
 
 // Force and torque on every element in the given state, gravity included.
-VectorXd residualForce(const Problem& p, const StaticRest& rest) {
+VectorXd residualForce(const Problem& p, const AssetRest& rest) {
   VectorXd force = VectorXd::Zero(6 * Eigen::Index(p.mass.size()));
   for (std::size_t i = 0; i < p.mass.size(); ++i)
     force.segment<3>(6 * Eigen::Index(i)) = p.mass[i] * p.gravity;
@@ -127,7 +128,7 @@ struct Largest {
   double angle = 0;         // of the step [rad]
 };
 
-Largest advance(StaticRest& rest, const VectorXd& step) {
+Largest advance(AssetRest& rest, const VectorXd& step) {
   Largest largest;
   for (std::size_t i = 0; i < rest.displacements.size(); ++i) {
     rest.displacements[i] += step.segment<3>(6 * Eigen::Index(i));
@@ -142,7 +143,7 @@ Largest advance(StaticRest& rest, const VectorXd& step) {
   return largest;
 }
 
-void turnHalves(RestStiffness& k, const StaticRest& rest) {
+void turnHalves(RestStiffness& k, const AssetRest& rest) {
   for (RestLink& l : k.links) {
     l.halfFirst = 0.5 * (l.rest + turned(rest.rotations[l.first], l.rest));
     if (l.second != kNoElement) l.halfSecond = 0.5 * (l.rest + turned(rest.rotations[l.second], l.rest));
@@ -155,7 +156,7 @@ std::unique_ptr<RestSolver> solverOf(const Problem& p, RestMethod method) {
   return direct ? directSolver(p.stiffness) : groupedSolver(p.stiffness);
 }
 
-PrestressResult solve(Problem p, RestMethod method, StaticRest& rest) {
+PrestressResult solve(Problem p, RestMethod method, AssetRest& rest) {
   PrestressResult result;
   result.outcome = PrestressOutcome::Failed;
   rest.displacements.assign(p.mass.size(), Eigen::Vector3d::Zero());
@@ -211,7 +212,7 @@ PrestressResult solve(Problem p, RestMethod method, StaticRest& rest) {
 }
 
 template <class Real>
-void write(Body<Real>& body, const StaticRest& rest) {
+void write(Body<Real>& body, const AssetRest& rest) {
   const Quat<double> turn(body.turn);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     body.displacement[i] = (turn * rest.displacements[i]).template cast<Real>();
@@ -219,24 +220,82 @@ void write(Body<Real>& body, const StaticRest& rest) {
   }
 }
 
+template <class Real>
+bool isWhole(const Body<Real>& body) {
+  return body.brokenCount == 0 && body.crushedCount == 0;
+}
+
+template <class Real>
+StaticRestKey keyOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
+  // Adding 0 makes -0 the same as 0.
+  return {(body.turn.conjugate() * gravity).array() + 0.0, body.material.youngsModulus, body.material.density,
+          body.model.rotationalStiffness, std::is_same_v<Real, float> ? Precision::Float : Precision::Double};
+}
+
+// What must be so before any state is looked for; true if it is.
+template <class Real>
+bool canStand(const Body<Real>& body, const Eigen::Vector3d& gravity, PrestressResult& result) {
+  if (body.anchorsIntact == 0 || !everyFragmentAnchored(body)) {
+    result.outcome = PrestressOutcome::NotAnchored;
+    result.reason = body.anchorsIntact == 0 ? "it has no anchors" : "a part of it hangs on no anchor";
+    return false;
+  }
+  return gravity.squaredNorm() > 0;
+}
+
+// The state that the asset of a whole body keeps; `refusal` says why not.
+PrestressResult kept(const Problem& p, const Asset& asset, std::uint64_t key) {
+  PrestressResult result;
+  if (asset.rest->key != key) {
+    result.refusal = "it is of another material, model, gravity, precision or geometry";
+    return result;
+  }
+  result.residual = worstOf(p, residualForce(p, *asset.rest));
+  if (result.residual <= kPrestressTolerance) {
+    result.outcome = PrestressOutcome::Kept;
+  } else {
+    result.refusal = text("it leaves %.3g of an element's weight unbalanced, allowed is %g", result.residual,
+                          kPrestressTolerance);
+  }
+  return result;
+}
+
+template <class Real>
+PrestressResult findStanding(const Body<Real>& body, const StaticRestKey& key, RestMethod method,
+                             AssetRest& rest) {
+  Problem p = problemOf(body, key.gravity);
+  rest.key = hashOf(key, *body.asset);
+  PrestressResult known;
+  if (body.asset->rest && isWhole(body)) {
+    known = kept(p, *body.asset, rest.key);
+    if (known.applied()) {
+      rest = *body.asset->rest;
+      return known;
+    }
+  }
+  PrestressResult result = solve(std::move(p), method, rest);
+  result.refusal = known.refusal;
+  return result;
+}
+
 }  // namespace
+
+template <class Real>
+PrestressResult findRest(const Body<Real>& body, const Eigen::Vector3d& gravity, RestMethod method,
+                         AssetRest& rest) {
+  PrestressResult result;
+  if (!canStand(body, gravity, result)) return result;
+  return findStanding(body, keyOf(body, gravity), method, rest);
+}
 
 template <class Real>
 PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, StaticRestCache* cache,
                           RestMethod method) {
   PrestressResult result;
-  if (body.anchorsIntact == 0 || !everyFragmentAnchored(body)) {
-    result.outcome = PrestressOutcome::NotAnchored;
-    result.reason = body.anchorsIntact == 0 ? "it has no anchors" : "a part of it hangs on no anchor";
-    return result;
-  }
-  if (!(gravity.squaredNorm() > 0)) return result;
+  if (!canStand(body, gravity, result)) return result;
   StaticRestCache::Entry entry;
-  // Adding 0 makes -0 the same as 0.
-  entry.key = {(body.turn.conjugate() * gravity).array() + 0.0, body.material.youngsModulus,
-               body.material.density, body.model.rotationalStiffness};
-  const bool whole = body.brokenCount == 0 && body.crushedCount == 0;
-  if (!whole) cache = nullptr;
+  entry.key = keyOf(body, gravity);
+  if (!isWhole(body)) cache = nullptr;
   if (const auto* known = cache ? cache->find(body.asset, entry.key) : nullptr) {
     result = known->result;
     if (result.outcome != PrestressOutcome::Done) return result;
@@ -244,21 +303,19 @@ PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, Stat
     result.outcome = PrestressOutcome::Cached;
     return result;
   }
-  result = solve(problemOf(body, entry.key.gravity), method, entry.rest);
-  if (result.applied()) {
-    write(body, entry.rest);
-  } else {
-    entry.rest = {};
-  }
-  if (cache) {
-    entry.asset = body.asset;
-    entry.rest.key = entry.key.hash();
-    entry.result = result;
-    cache->add(std::move(entry));
-  }
+  result = findStanding(body, entry.key, method, entry.rest);
+  if (result.applied()) write(body, entry.rest);
+  if (!cache || result.outcome == PrestressOutcome::Kept) return result;
+  if (!result.applied()) entry.rest = {};
+  entry.asset = body.asset;
+  entry.result = result;
+  entry.result.refusal.clear();  // said once
+  cache->add(std::move(entry));
   return result;
 }
 
+template PrestressResult findRest(const Body<float>&, const Eigen::Vector3d&, RestMethod, AssetRest&);
+template PrestressResult findRest(const Body<double>&, const Eigen::Vector3d&, RestMethod, AssetRest&);
 template PrestressResult prestress(Body<float>&, const Eigen::Vector3d&, StaticRestCache*, RestMethod);
 template PrestressResult prestress(Body<double>&, const Eigen::Vector3d&, StaticRestCache*, RestMethod);
 

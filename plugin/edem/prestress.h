@@ -19,10 +19,18 @@ enum class RestMethod {
   Grouped  ///< conjugate gradients with two levels
 };
 
-/// Solves K (u, theta) = (m g, 0) with the stiffness at rest, corrects the finite-rotation residual with the
-/// same K, or with that of the state found where this gains too little, until it is below
-/// kPrestressTolerance, and writes displacements and rotations. When it cannot, the body is left as it was. A
-/// whole body's result is taken from and kept in `cache`, if one is given.
+/// Finds the static state of a body, in the asset's axes, without touching the body. The state that its asset
+/// keeps is taken if its key is that of the body and it leaves no more than kPrestressTolerance; else
+/// `refusal` says why, and it is solved: K (u, theta) = (m g, 0) with the stiffness at rest, the
+/// finite-rotation residual corrected with the same K, or with that of the state found where this gains too
+/// little, until it is below kPrestressTolerance. `rest` is valid if the result is applied().
+template <class Real>
+PrestressResult findRest(const Body<Real>& body, const Eigen::Vector3d& gravity, RestMethod method,
+                         AssetRest& rest);
+
+/// Writes the displacements and rotations of findRest into the body. When there are none, the body is left as
+/// it was. A whole body's result is taken from and kept in `cache`, if one is given; what its asset keeps is
+/// not kept twice.
 template <class Real>
 PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, StaticRestCache* cache = nullptr,
                           RestMethod method = RestMethod::Chosen);

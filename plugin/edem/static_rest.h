@@ -1,4 +1,5 @@
-// What a static solve gives, and its cache: equal bodies are solved once.
+// What a static solve gives, and its cache: equal bodies are solved once. A state can also be kept in the
+// asset (AssetRest), and so in its file.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,12 +10,14 @@
 
 #include "edem/types.h"
 #include "rubble/asset.h"
+#include "rubble/material.h"
 
 namespace rubble::edem {
 
 enum class PrestressOutcome {
   Done,
   Cached,       ///< an equal body's state was taken
+  Kept,         ///< the state kept in the asset was taken
   NotNeeded,    ///< not asked for an anchored body, or there is no gravity
   NotAnchored,  ///< a part of the body, or all of it, hangs on no anchor: it has no static state of its own
   Failed        ///< nothing was written; `reason` says why
@@ -28,27 +31,28 @@ struct PrestressResult {
   double residual = 0;
   int corrections = 0;  ///< solutions with the stiffness at rest
   int iterations = 0;   ///< of conjugate gradients, in all of them; 0 after a sparse Cholesky
+  /// Why the state kept in the asset was not taken: one clause about "it", the state. Empty if it was, or if
+  /// none was asked for.
+  std::string refusal;
 
-  bool applied() const { return outcome == PrestressOutcome::Done || outcome == PrestressOutcome::Cached; }
+  bool applied() const {
+    return outcome == PrestressOutcome::Done || outcome == PrestressOutcome::Cached ||
+           outcome == PrestressOutcome::Kept;
+  }
 };
 
-/// What a body's static state depends on, beside its asset and the precision of its constants. Compared bit
-/// by bit.
+/// What a body's static state depends on, beside its asset. Compared bit by bit.
 struct StaticRestKey {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< asset axes [m/s^2]
   double youngsModulus = 0;                           ///< [Pa]
   double density = 0;                                 ///< [kg/m^3]
   bool rotationalStiffness = true;
-
-  std::uint64_t hash() const;  ///< FNV-1a over the bits
+  Precision precision = Precision::Float;  ///< of the springs' constants
 };
 
-/// The static state of a whole body, in the asset's axes: plain numbers that a file can keep.
-struct StaticRest {
-  std::uint64_t key = 0;                       ///< hash of its StaticRestKey
-  std::vector<Eigen::Vector3d> displacements;  ///< [m] (n)
-  std::vector<Quat<double>> rotations;         ///< (n)
-};
+/// AssetRest::key: FNV-1a over the bits of the key and of the asset's elements, springs and anchors. Inputs
+/// alone, nothing computed from them, so that compilers that round otherwise make the same.
+std::uint64_t hashOf(const StaticRestKey& key, const Asset& asset);
 
 /// States by asset and key, for as long as the asset lives. Failures are kept too, without a state.
 class StaticRestCache {
@@ -56,7 +60,7 @@ class StaticRestCache {
   struct Entry {
     std::weak_ptr<const Asset> asset;
     StaticRestKey key;
-    StaticRest rest;
+    AssetRest rest;  ///< without its key
     PrestressResult result;
   };
   /// The entry, or null. Valid until the next call of add.
