@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "bullet/body_def.h"
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
 
@@ -67,15 +68,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   if (!bodyDef.asset) throw Error("destructible body: asset: none given");
   auto impl = std::make_unique<DestructibleBody::Impl>();
   impl->spawner = std::make_unique<debris::Spawner>(bodyDef.material, bodyDef.model, def.seed);
-  edem::BodyDef elements;
-  elements.asset = bodyDef.asset;
-  elements.material = bodyDef.material;
-  elements.model = bodyDef.model;
-  elements.transform = toEigen(bodyDef.transform);
-  elements.velocity = toEigen(bodyDef.velocity);
-  elements.spin = toEigen(bodyDef.spin);
-  elements.massDamping = bodyDef.massDamping;
-  elements.anchored = bodyDef.anchored;
+  edem::BodyDef elements = bullet::elementsOf(bodyDef);
   double mass = 0;
   const Material& m = bodyDef.material;
   for (const double volume : bodyDef.asset->volumes) {
@@ -89,6 +82,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->name = edem::bodyName(impl->id, m, *bodyDef.asset, elements.transform, toEigen(world.getGravity()));
   impl->advice = edem::sizeAndWeightAdvice(
       {*bodyDef.asset, m, bodyDef.model, elements.transform, toEigen(world.getGravity()), bodyDef.anchored});
+  logRefusedRest(impl->id, impl->name);
   if (!impl->advice.empty()) {
     if (def.log) def.log(LogLevel::Warning, impl->name + ": " + impl->advice);
   } else if (bodyDef.anchored) {
@@ -114,6 +108,14 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   bodies.push_back(body);
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
   return body;
+}
+
+// Says why the state that an asset keeps was of no use.
+void Destruction::Impl::logRefusedRest(std::uint32_t id, const std::string& name) const {
+  const std::string& refusal = solver->prestressed(id).refusal;
+  if (def.log && !refusal.empty())
+    def.log(LogLevel::Warning, name + ": the static state that its asset keeps was not taken: " + refusal +
+                                   "; it is solved anew");
 }
 
 // Says why an anchored body does not stand still from the start.

@@ -76,6 +76,7 @@ struct Destruction::Impl {
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
 
  private:
+  void logRefusedRest(std::uint32_t id, const std::string& name) const;
   void logPrestress(std::uint32_t id, const std::string& name, const DestructibleBodyDef& bodyDef) const;
   void gatherProxies();
   void lateImpulses();

@@ -53,7 +53,8 @@ struct DestructibleBodyDef {
   /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's
   /// gravity, so that it stands still from the first step. Where that fails, a warning is logged and the body
   /// settles by itself, as every body does that only stands on something. An asset without anchors makes a
-  /// free body, which is logged too.
+  /// free body, which is logged too. The asset may keep that state (rubble/prestress.h); where it is not this
+  /// body's, it is solved anew and a warning logged.
   bool anchored = true;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;

@@ -1,0 +1,26 @@
+// The definition of a body as the elements' solver takes it.
+#pragma once
+
+#include "bullet/convert.h"
+#include "edem/body.h"
+#include "rubble/destruction.h"
+
+namespace rubble::bullet {
+RUBBLE_ABI_BEGIN
+
+/// All but the crushing energies, which the debris' constants give.
+inline edem::BodyDef elementsOf(const DestructibleBodyDef& def) {
+  edem::BodyDef elements;
+  elements.asset = def.asset;
+  elements.material = def.material;
+  elements.model = def.model;
+  elements.transform = toEigen(def.transform);
+  elements.velocity = toEigen(def.velocity);
+  elements.spin = toEigen(def.spin);
+  elements.massDamping = def.massDamping;
+  elements.anchored = def.anchored;
+  return elements;
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble::bullet
