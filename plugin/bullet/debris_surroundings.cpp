@@ -15,14 +15,6 @@ namespace {
 constexpr double kTouch = 1e-5;    // nearer than this is a touch [m]
 constexpr int kMostAdvances = 32;  // a grazing sweep converges slowly; what is left then is no touch
 
-// Velocity change along n of a rigid body for a unit impulse at `at`.
-double inverseMassAt(const edem::RigidProxy& p, const Eigen::Vector3d& at, const Eigen::Vector3d& n) {
-  const Eigen::Matrix3d turn = p.orientation.toRotationMatrix();
-  const Eigen::Vector3d lever = (at - p.position).cross(n);
-  const Eigen::Vector3d local = turn.transpose() * lever;
-  return p.inverseMass + local.dot(p.inverseInertia.cwiseProduct(local));
-}
-
 }  // namespace
 
 void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
@@ -30,13 +22,12 @@ void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
   m_centres.clear();
   m_balls.clear();
   m_largest = 0;
-  std::fill(m_present.begin(), m_present.end(), std::uint8_t(0));
   const btVector3 low = toBullet(swept.min()), high = toBullet(swept.max());
   // The world's list and not the broadphase's tree: its order does not depend on the tree's history.
   for (int i = 0; i < m_world.getNumCollisionObjects(); ++i) {
     btCollisionObject& object = *m_world.getCollisionObjectArray()[i];
-    if (const DestructibleBody* body = DestructibleBody::upcast(&object)) {
-      addElements(body->id(), swept);
+    if (DestructibleBody* body = DestructibleBody::upcast(&object)) {
+      addElements(*body, swept);
       continue;
     }
     btVector3 a, b;
@@ -49,35 +40,72 @@ void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
 
 void DebrisSurroundings::addObject(btCollisionObject& object) {
   Object o;
+  o.object = &object;
   o.proxy = m_proxies.make(object);
   if (o.proxy.parts.empty()) return;
+  o.rigid = o.proxy.isDynamic() ? btRigidBody::upcast(&object) : nullptr;
   o.bounds = o.proxy.bounds();
-  o.surface = debris::kFixedSurface;
-  if (o.proxy.isDynamic()) {
-    btRigidBody* rigid = btRigidBody::upcast(&object);
-    const auto found = std::find(m_movable.begin(), m_movable.end(), rigid);
-    o.surface = std::uint32_t(found - m_movable.begin());
-    if (found == m_movable.end()) {
-      m_movable.push_back(rigid);
-      m_present.push_back(1);
-    }
-    m_present[o.surface] = 1;
-  }
+  const auto [known, isNew] = m_surfaceOf.try_emplace(&object, std::uint32_t(m_places.size()));
+  if (isNew) m_places.emplace_back();
+  o.surface = known->second;
+  m_places[o.surface] = {std::uint32_t(m_objects.size()), false};
   m_objects.push_back(std::move(o));
 }
 
-void DebrisSurroundings::addElements(std::uint32_t body, const Eigen::AlignedBox3d& swept) {
-  const double radius = m_solver.radius(body);
+std::uint32_t DebrisSurroundings::firstSurfaceOf(std::uint32_t body, std::size_t elements) {
+  constexpr std::uint32_t kUnknown = 0xffffffffu;
+  if (body >= m_firstSurface.size()) m_firstSurface.resize(std::size_t(body) + 1, kUnknown);
+  std::uint32_t& first = m_firstSurface[body];
+  if (first == kUnknown) {
+    first = std::uint32_t(m_places.size());
+    m_places.resize(m_places.size() + elements);
+  }
+  return first;
+}
+
+void DebrisSurroundings::addElements(DestructibleBody& body, const Eigen::AlignedBox3d& swept) {
+  const std::uint32_t id = body.id();
+  const double radius = m_solver.radius(id);
   Eigen::AlignedBox3d grown = swept;
   grown.min().array() -= radius;
   grown.max().array() += radius;
-  m_solver.elementsIn(body, grown, m_near);
-  const edem::BodyView view = m_solver.view(body);
+  m_solver.elementsIn(id, grown, m_near);
+  if (m_near.empty()) return;
+  const edem::BodyView view = m_solver.view(id);
+  const std::uint32_t first = firstSurfaceOf(id, view.alive.size());
   for (const std::uint32_t i : m_near) {
-    m_centres.push_back(m_solver.position(body, i));
-    m_balls.push_back({body, i, radius, view.asleep ? 0 : 1 / view.mass[i]});
+    m_places[first + i] = {std::uint32_t(m_balls.size()), true};
+    m_centres.push_back(m_solver.position(id, i));
+    m_balls.push_back({&body, id, i, radius, first + i, view.asleep});
   }
-  if (!m_near.empty()) m_largest = std::max(m_largest, radius);
+  m_largest = std::max(m_largest, radius);
+}
+
+debris::DebrisSurface DebrisSurroundings::surface(std::uint32_t id) const {
+  const Place place = m_places[id];
+  debris::DebrisSurface s;
+  if (place.isElement) {
+    const ElementBall& ball = m_balls[place.index];
+    s.centre = m_centres[place.index];
+    s.velocity = m_solver.velocity(ball.body, ball.element);
+    s.spin = m_solver.spin(ball.body, ball.element);
+    if (ball.asleep) return s;
+    const edem::BodyView view = m_solver.view(ball.body);
+    s.inverseMass.setConstant(1 / view.mass[ball.element]);
+    s.inverseInertia = Eigen::Matrix3d::Identity() / view.inertia[ball.element];
+    return s;
+  }
+  const Object& object = m_objects[place.index];
+  const edem::RigidProxy& proxy = object.proxy;
+  s.centre = proxy.position;
+  s.velocity = proxy.velocity;
+  s.spin = proxy.spin;
+  if (!object.rigid) return s;
+  const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
+  const Eigen::DiagonalMatrix<double, 3> free(toEigen(object.rigid->getAngularFactor()));
+  s.inverseMass = proxy.inverseMass * toEigen(object.rigid->getLinearFactor());
+  s.inverseInertia = free * (turn * proxy.inverseInertia.asDiagonal() * turn.transpose()) * free;
+  return s;
 }
 
 bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d& from,
@@ -103,8 +131,6 @@ bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d
         hit.fraction = t;
         hit.normal = normal;
         hit.point = at - s.distance * normal;
-        hit.surfaceVelocity = proxy.velocity + proxy.spin.cross(hit.point - proxy.position);
-        hit.inverseMass = proxy.isDynamic() ? inverseMassAt(proxy, hit.point, normal) : 0;
         hit.surface = object.surface;
         found = true;
         break;
@@ -137,11 +163,7 @@ bool DebrisSurroundings::sweepElement(std::uint32_t ball, const Eigen::Vector3d&
   hit.fraction = t;
   hit.normal = arm / distance;
   hit.point = m_centres[ball] + m_balls[ball].radius * hit.normal;
-  hit.surfaceVelocity =
-      m_solver.velocity(m_balls[ball].body, m_balls[ball].element) +
-      m_solver.spin(m_balls[ball].body, m_balls[ball].element).cross(hit.point - m_centres[ball]);
-  hit.inverseMass = m_balls[ball].inverseMass;  // the normal goes through its centre
-  hit.surface = hit.inverseMass > 0 ? std::uint32_t(m_movable.size()) + ball : debris::kFixedSurface;
+  hit.surface = m_balls[ball].surface;
   return true;
 }
 
@@ -164,20 +186,28 @@ bool DebrisSurroundings::sweep(const Eigen::Vector3d& from, const Eigen::Vector3
   return found;
 }
 
-void DebrisSurroundings::push(std::span<const debris::SurfaceImpulse> impulses) {
-  for (std::uint32_t s = 0; s < impulses.size(); ++s) {
-    if (impulses[s].hits == 0) continue;
-    if (s >= m_movable.size()) {
-      const ElementBall& ball = m_balls[s - m_movable.size()];
-      m_solver.push(ball.body, ball.element, impulses[s].linear,
-                    impulses[s].angularAbout(m_centres[s - m_movable.size()]));
-    } else if (m_present[s]) {
-      btRigidBody& rigid = *m_movable[s];
-      rigid.activate();
-      rigid.applyCentralImpulse(toBullet(impulses[s].linear));
-      rigid.applyTorqueImpulse(toBullet(impulses[s].angularAbout(toEigen(rigid.getCenterOfMassPosition()))));
+ElementPush DebrisSurroundings::push(std::span<const debris::SurfaceImpulse> impulses) {
+  const edem::Exchange before = m_solver.books().bullet;
+  ElementPush pushed;
+  for (const debris::SurfaceImpulse& impulse : impulses) {
+    const Place place = m_places[impulse.surface];
+    if (place.isElement) {
+      const ElementBall& ball = m_balls[place.index];
+      if (ball.asleep) continue;
+      m_solver.push(ball.body, ball.element, impulse.linear, impulse.angularAbout(m_centres[place.index]));
+      pushed.given += {impulse.linear, impulse.angular, impulse.work};
+    } else if (btRigidBody* rigid = m_objects[place.index].rigid) {
+      // By the inverse masses that the hits counted on.
+      const debris::DebrisSurface s = surface(impulse.surface);
+      rigid->activate();
+      rigid->setLinearVelocity(toBullet(s.velocity + s.inverseMass.cwiseProduct(impulse.linear)));
+      rigid->setAngularVelocity(toBullet(s.spin + s.inverseInertia * impulse.angularAbout(s.centre)));
     }
   }
+  const edem::Exchange& after = m_solver.books().bullet;
+  pushed.received = {after.linear - before.linear, after.angular - before.angular,
+                     after.work.done() - before.work.done()};
+  return pushed;
 }
 
 RUBBLE_ABI_END

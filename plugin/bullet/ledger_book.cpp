@@ -16,6 +16,11 @@ void LedgerBook::addExchange(const debris::Exchange& exchange) {
       exchange.gravity.linear.norm() + exchange.air.linear.norm() + exchange.contact.linear.norm();
 }
 
+void LedgerBook::addPush(const ElementPush& push) {
+  m_push.given += push.given;
+  m_push.received += push.received;
+}
+
 void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   Ledger& l = m_ledger;
   l.massElements = books.mass;
@@ -28,14 +33,16 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   // Momentum: what is there, and what left, is what was there and what was exchanged (law 12).
   l.linearMomentum = books.linear + debris.linear;
   l.angularMomentum = books.angular + debris.angularAbout(books.centre);
-  const Eigen::Vector3d linear = books.initialLinear + books.bullet.linear + books.gravity.linear +
-                                 books.anchors.linear + m_gravity.linear + m_air.linear + m_contact.linear -
-                                 books.sleptLinear - m_dust.linear - m_removed.linear;
-  const Eigen::Vector3d angular = books.initialAngular + books.bullet.angular + books.gravity.angular +
-                                  books.anchors.angular + m_gravity.angularAbout(books.centre) +
-                                  m_air.angularAbout(books.centre) + m_contact.angularAbout(books.centre) -
-                                  books.sleptAngular - m_dust.angularAbout(books.centre) -
-                                  m_removed.angularAbout(books.centre);
+  // What debris give to elements stays among them: it is taken out of both sides' exchange.
+  const Eigen::Vector3d linear = books.initialLinear + books.bullet.linear - m_push.received.linear +
+                                 books.gravity.linear + books.anchors.linear + m_gravity.linear +
+                                 m_air.linear + m_contact.linear + m_push.given.linear - books.sleptLinear -
+                                 m_dust.linear - m_removed.linear;
+  const Eigen::Vector3d angular =
+      books.initialAngular + books.bullet.angular - m_push.received.angular + books.gravity.angular +
+      books.anchors.angular + m_gravity.angularAbout(books.centre) + m_air.angularAbout(books.centre) +
+      m_contact.angularAbout(books.centre) + m_push.given.angularAbout(books.centre) - books.sleptAngular -
+      m_dust.angularAbout(books.centre) - m_removed.angularAbout(books.centre);
   const double scale = std::max(1e-6, books.initialMomentumSize + books.bullet.size + books.gravity.size +
                                           books.anchors.size + m_impulseSizes);
   l.linearError = (l.linearMomentum - linear).norm() / scale;
@@ -45,7 +52,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.elastic = books.elastic;
   l.debris = debris.kinetic;
   l.gravity = books.gravity.work.done() + m_gravity.energy;
-  l.exchanged = books.bullet.work.done() - m_surfaceWork;
+  l.exchanged = books.bullet.work.done() - m_push.received.energy - (m_surfaceWork - m_push.given.energy);
   l.dissipated =
       -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy - m_surfaceWork;
   l.fracture = books.fracture - m_given;

@@ -1,6 +1,7 @@
 // Joins the books of elements, debris and dust into the ledger.
 #pragma once
 
+#include "bullet/debris_surroundings.h"
 #include "debris/debris_system.h"
 #include "debris/motion.h"
 #include "edem/books.h"
@@ -17,6 +18,9 @@ class LedgerBook {
   void addGiven(double energy) { m_given += energy; }
   void addRemoved(const debris::Motion& removed) { m_removed += removed; }
   void addExchange(const debris::Exchange& exchange);
+  /// Between debris and elements: no exchange with Bullet, though debris and elements both book it as one
+  /// with a stranger. What the elements received more or less than the debris gave shows as an error.
+  void addPush(const ElementPush& push);
 
   void close(const edem::Books& books, const debris::Motion& debris);
   const Ledger& ledger() const { return m_ledger; }
@@ -25,7 +29,8 @@ class LedgerBook {
   Ledger m_ledger;
   debris::Motion m_dust, m_removed;
   debris::Impulse m_gravity, m_air, m_contact;
-  double m_surfaceWork = 0;    // by debris on what they hit [J]
+  ElementPush m_push;
+  double m_surfaceWork = 0;    // by debris on what they hit, elements too [J]
   double m_given = 0;          // of the fracture energy, to debris [J]
   double m_impulseSizes = 0;   // sum of |impulse| on debris [N s]
   double m_largestEnergy = 0;  // [J]

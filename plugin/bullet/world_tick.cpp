@@ -446,7 +446,7 @@ void Destruction::Impl::stepDebris(double dt) {
       failure = error.what();
       return;
     }
-    surroundings->push(debrisSystem->surfaceImpulses());
+    ledgerBook.addPush(surroundings->push(debrisSystem->surfaceImpulses()));
   }
   const debris::Exchange exchange = debrisSystem->takeExchange();
   debrisRemoved += std::uint32_t(exchange.removedCount);

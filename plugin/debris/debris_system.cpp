@@ -87,6 +87,7 @@ void DebrisSystem::addOne(const DebrisParcel& parcel) {
                          .friction = parcel.friction,
                          .stillTime = 0,
                          .support = kFixedSurface,
+                         .supports = {},
                          .touched = false});
   m_pieces.push_back({.position = parcel.position.cast<float>(),
                       .velocity = parcel.velocity.cast<float>(),
@@ -113,7 +114,7 @@ void DebrisSystem::step(double dt, const Eigen::Vector3d& gravity, DebrisCollide
   beginStep(dt, gravity, collider);
   if (!(dt > 0)) return;
   const StepInput input{dt, gravity, m_def.restitution, &collider};
-  const StepBooks books{&m_exchange, m_surfaces};
+  const StepBooks books{&m_exchange, &m_surfaces};
   m_motion = {};
   bool strays = false;
   for (std::uint32_t index = m_moving.first; index != kNone;) {
@@ -122,7 +123,7 @@ void DebrisSystem::step(double dt, const Eigen::Vector3d& gravity, DebrisCollide
     advance(particle, input, books);
     if (comesToRest(particle, dt)) {
       bringToRest(particle, books);
-      rest(index);
+      rest(index, collider);
     }
     updatePiece(index, dt);
     m_motion += motionOf(particle);
@@ -143,12 +144,13 @@ void DebrisSystem::beginStep(double dt, const Eigen::Vector3d& gravity, DebrisCo
     swept.extend(p.position + reach);
   }
   if (!swept.isEmpty()) collider.begin(swept);
-  m_surfaces.assign(collider.surfaceCount(), {});  // known once the collider has seen what is near
+  m_surfaces.begin(collider);  // it has seen what is near
 }
 
 bool DebrisSystem::comesToRest(Particle& particle, double dt) const {
   const bool still = particle.velocity.norm() <= m_def.restSpeed;
   particle.stillTime = still ? particle.stillTime + dt : 0;
+  if (!still) particle.supports.count = 0;
   return particle.touched && particle.stillTime >= m_def.restTime && still;
 }
 
@@ -175,12 +177,14 @@ void DebrisSystem::removeStrays() {
   }
 }
 
-void DebrisSystem::rest(std::uint32_t index) {
+void DebrisSystem::rest(std::uint32_t index, DebrisCollider& collider) {
   if (m_resting.count == 0) m_restBounds.setEmpty();
   m_restBounds.extend(m_particles[index].position);
   unlink(m_moving, index);
   append(m_resting, index);
   m_pieces[index].resting = true;
+  for (const std::uint32_t id : m_particles[index].supports)
+    if (id != kFixedSurface) collider.noteSupport(id);
 }
 
 // Through the array and not through the list, which jumps about in memory: five times faster.
@@ -193,6 +197,7 @@ std::uint32_t DebrisSystem::wakeIf(Choose choose) {
     append(m_moving, index);
     m_pieces[index].resting = false;
     m_particles[index].stillTime = 0;
+    m_particles[index].supports.count = 0;
     ++woken;
   }
   return woken;
@@ -213,9 +218,18 @@ std::uint32_t DebrisSystem::wake(std::span<const Eigen::AlignedBox3d> boxes) {
 
 std::uint32_t DebrisSystem::wakeSupports(std::span<const std::uint32_t> surfaces) {
   if (m_resting.count == 0 || surfaces.empty()) return 0;
-  return wakeIf([surfaces](const Particle& particle) {
-    return std::find(surfaces.begin(), surfaces.end(), particle.support) != surfaces.end();
+  m_leaving.resize(std::max<std::size_t>(m_leaving.size(), m_surfaces.count()), 0);
+  const auto mark = [&](std::uint8_t as) {
+    for (const std::uint32_t id : surfaces)
+      if (id < m_leaving.size()) m_leaving[id] = as;
+  };
+  mark(1);
+  const std::uint32_t woken = wakeIf([this](const Particle& particle) {
+    return std::any_of(particle.supports.begin(), particle.supports.end(),
+                       [this](std::uint32_t id) { return id != kFixedSurface && m_leaving[id] != 0; });
   });
+  mark(0);
+  return woken;
 }
 
 std::uint32_t DebrisSystem::removeBody(std::uint32_t body) {

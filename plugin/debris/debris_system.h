@@ -19,7 +19,7 @@ namespace rubble::debris {
 
 struct DebrisSystemDef {
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces, 1 to 2^24; memory for all is allocated at
-                                     ///< once, about 240 bytes a piece
+                                     ///< once, about 260 bytes a piece
   Air air{};
   double restitution = 0.3;  ///< of hits, 0 to 1; rubble on stone about 0.2 to 0.4
   double restSpeed = 0.02;   ///< slower than this for restTime, and touching: at rest [m/s], >= 0
@@ -49,8 +49,8 @@ class DebrisSystem {
   /// which a support went); returns how many. Free when no box meets the bounds of what rests, one pass over
   /// all pieces otherwise: pass all boxes of a tick at once.
   std::uint32_t wake(std::span<const Eigen::AlignedBox3d> boxes);
-  /// Wakes the resting pieces that last touched one of these surfaces; returns how many. One pass over all
-  /// pieces.
+  /// Wakes the resting pieces that one of these surfaces held; returns how many. One pass over all pieces,
+  /// however many surfaces.
   std::uint32_t wakeSupports(std::span<const std::uint32_t> surfaces);
 
   /// Removes the pieces of one body; returns how many.
@@ -65,8 +65,8 @@ class DebrisSystem {
   Motion motion() const;
   /// All that changed motion() since the last call, and starts anew.
   Exchange takeExchange();
-  /// What each movable surface received in the last step, by id.
-  std::span<const SurfaceImpulse> surfaceImpulses() const { return m_surfaces; }
+  /// What surfaces received in the last step, in the order of their first hits.
+  std::span<const SurfaceImpulse> surfaceImpulses() const { return m_surfaces.impulses(); }
   /// FNV-1a over the bits of all pieces.
   std::uint64_t hash() const;
 
@@ -89,7 +89,7 @@ class DebrisSystem {
   bool comesToRest(Particle& particle, double dt) const;
   bool isStray(std::uint32_t index) const;
   void removeStrays();
-  void rest(std::uint32_t index);
+  void rest(std::uint32_t index, DebrisCollider& collider);
   template <typename Choose>
   std::uint32_t wakeIf(Choose choose);
   void remove(std::uint32_t index);
@@ -107,7 +107,8 @@ class DebrisSystem {
   double m_mass = 0;                 // of all pieces [kg]
   Motion m_motion;                   // of the moving ones; those that rest have none
   Exchange m_exchange;
-  std::vector<SurfaceImpulse> m_surfaces;
+  Surfaces m_surfaces;
+  std::vector<std::uint8_t> m_leaving;  // by surface id; all 0 between calls
 };
 
 }  // namespace rubble::debris

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "debris/contact.h"
 #include "rubble/error.h"
 
 namespace rubble::debris {
@@ -23,8 +24,7 @@ constexpr double kNormalTolerance = 1e-3;
 
 void checkHit(const DebrisHit& hit, std::size_t surfaceCount) {
   const bool valid = hit.fraction >= 0 && hit.fraction <= 1 && isUsable(hit.point) &&
-                     std::abs(hit.normal.norm() - 1) < kNormalTolerance && isUsable(hit.surfaceVelocity) &&
-                     hit.inverseMass >= 0 && hit.inverseMass <= kLargest;
+                     std::abs(hit.normal.norm() - 1) < kNormalTolerance;
   if (!valid) throw Error("debris: the collider gave a hit that is not finite or out of range");
   if (hit.surface != kFixedSurface && hit.surface >= surfaceCount)
     throw Error("debris: the collider gave surface " + std::to_string(hit.surface) + " of " +
@@ -36,7 +36,7 @@ bool findHit(const Particle& p, const Eigen::Vector3d& way, const StepInput& inp
              DebrisHit& hit) {
   hit = {};
   if (!input.collider->sweep(p.position, p.position + way, p.collisionRadius, hit)) return false;
-  checkHit(hit, books.surfaces.size());
+  checkHit(hit, books.surfaces->count());
   hit.normal.normalize();
   return way.dot(hit.normal) <= 0;
 }
@@ -46,17 +46,18 @@ Eigen::Vector3d wayToHit(const Particle& p, const DebrisHit& hit) {
   return hit.point + (p.collisionRadius + kGap) * hit.normal - p.position;
 }
 
-void bookContact(const DebrisHit& hit, const Impulse& change, const StepBooks& books) {
-  Exchange& exchange = *books.exchange;
-  exchange.contact += change;
-  // The surface's velocity changes in proportion to the impulse, so its mean over the hit does the work.
-  exchange.workOnSurfaces +=
-      -change.linear.dot(hit.surfaceVelocity) + 0.5 * hit.inverseMass * change.linear.squaredNorm();
-  if (hit.surface == kFixedSurface) return;
-  SurfaceImpulse& surface = books.surfaces[hit.surface];
-  surface.linear -= change.linear;
-  surface.angular -= change.angular;
-  ++surface.hits;
+// Books a change of the piece's motion by contact, and gives the surface what the piece lost.
+void bookContact(std::uint32_t surface, const Impulse& change, const StepBooks& books) {
+  books.exchange->contact += change;
+  books.exchange->workOnSurfaces += books.surfaces->give(surface, change);
+}
+
+// The same for a change that no law of contact stands behind: setting a piece down beside its parabola, or
+// stopping it. `spent` is what the contact has dissipated so far [J]; what would make more energy than that
+// is booked as if the piece had it from outside.
+void bookRemainder(std::uint32_t surface, const Impulse& change, double spent, const StepBooks& books) {
+  const bool makesEnergy = change.energy + books.surfaces->workOf(surface, change) > spent;
+  bookContact(makesEnergy ? kFixedSurface : surface, change, books);
 }
 
 // Moves a piece along a flight and books gravity's and the air's impulse at the middle of the way. Returns
@@ -80,34 +81,21 @@ Impulse coast(Particle& p, const Flight& flight, double time, const StepInput& i
           change.energy - fromGravity.energy - fromAir.energy};
 }
 
-// Newton's restitution and Coulomb's friction on a point: the impulse along the normal is J = m' (1 + e) u_n,
-// the one along the surface at most mu J and never more than stops the sliding; m' is the reduced mass. The
-// surface's inverse mass along the normal stands for that along the surface too. Returns the velocity after a
-// hit at `velocity`.
-Eigen::Vector3d velocityAfterHit(const Particle& p, const Eigen::Vector3d& velocity, const DebrisHit& hit,
-                                 double restitution) {
-  const Eigen::Vector3d relative = velocity - hit.surfaceVelocity;
-  const double approach = -relative.dot(hit.normal);
-  if (!(approach > 0)) return velocity;
-  const double reduced = 1 / (1 + p.mass * hit.inverseMass);  // m' / m
-  const double push = reduced * (1 + restitution) * approach;
-  const Eigen::Vector3d sliding = relative + approach * hit.normal;
-  const double slip = sliding.norm();
-  const double grip = slip > 0 ? std::min(p.friction * push / slip, reduced) : 0;
-  return velocity + push * hit.normal - grip * sliding;
-}
-
-// A hit leaves the share e of the spin: a point has no arm for friction to turn it by, and a piece that has
-// come to rest must not spin. `flown` is what the way to the surface left over; it is the surface's.
+// `flown` is what the way to the surface left over; it is the surface's.
 void hitSurface(Particle& p, const DebrisHit& hit, double restitution, const Impulse& flown,
                 const StepBooks& books) {
-  const Motion before = motionOf(p);
-  p.velocity = velocityAfterHit(p, p.velocity, hit, restitution);
-  p.spin *= restitution;
-  Impulse change = changeOf(before, motionOf(p));
-  change += flown;
-  bookContact(hit, change, books);
+  const Exchange& exchange = *books.exchange;
+  const double before = exchange.contact.energy + exchange.workOnSurfaces;
+  const Motion flying = motionOf(p);
+  p.velocity = velocityAfterHit(p, p.velocity, hit.normal, restitution, books.surfaces->of(hit.surface));
+  const Motion bounced = motionOf(p);
+  bookContact(hit.surface, changeOf(flying, bounced), books);
+  p.spin = spinAfterHit(p, restitution, books.surfaces->of(hit.surface));
+  bookContact(hit.surface, changeOf(bounced, motionOf(p)), books);
+  const double spent = before - exchange.contact.energy - exchange.workOnSurfaces;
+  bookRemainder(hit.surface, flown, spent, books);
   p.support = hit.surface;
+  p.supports.add(hit.surface);
   p.touched = true;
 }
 
@@ -117,7 +105,12 @@ void hitSurface(Particle& p, const DebrisHit& hit, double restitution, const Imp
 void slide(Particle& p, const DebrisHit& floor, double time, double rate, const StepInput& input,
            const StepBooks& books) {
   Flight flight = fly(p.velocity, input.gravity, rate, time);
-  flight.displacement = 0.5 * time * (p.velocity + velocityAfterHit(p, flight.velocity, floor, 0));
+  flight.displacement =
+      0.5 * time *
+      (p.velocity + velocityAfterHit(p, flight.velocity, floor.normal, 0, books.surfaces->of(floor.surface)));
+  // Surfaces stand within a step, so what has been hit away, or moves away, has not made room yet. The piece
+  // that goes with it waits: beside its own path its momentum would turn the surface.
+  if (p.velocity.dot(floor.normal) * time < -kGap) flight.displacement.setZero();
   flight.displacement -= std::min(flight.displacement.dot(floor.normal), 0.0) * floor.normal;
 
   DebrisHit wall;
@@ -129,6 +122,13 @@ void slide(Particle& p, const DebrisHit& floor, double time, double rate, const 
 }
 
 }  // namespace
+
+void Supports::add(std::uint32_t id) {
+  if (std::find(begin(), end(), id) != end()) return;
+  if (count == ids.size()) std::rotate(ids.begin(), ids.begin() + 1, ids.end());
+  count = std::min(count + 1, std::uint32_t(ids.size()));
+  ids[count - 1] = id;
+}
 
 void advance(Particle& p, const StepInput& input, const StepBooks& books) {
   p.touched = false;
@@ -147,7 +147,8 @@ void advance(Particle& p, const StepInput& input, const StepBooks& books) {
     Flight until = fly(p.velocity, input.gravity, rate, time);
     until.displacement = wayToHit(p, hit);
     const Impulse flown = coast(p, until, time, input, *books.exchange);
-    const double approach = (hit.surfaceVelocity - p.velocity).dot(hit.normal);
+    const Eigen::Vector3d surface = books.surfaces->of(hit.surface).velocityAt(p.position);
+    const double approach = (surface - p.velocity).dot(hit.normal);
     const bool bounces = input.restitution * approach > slowest;
     hitSurface(p, hit, bounces ? input.restitution : 0, flown, books);
     left -= time;
@@ -162,7 +163,7 @@ void bringToRest(Particle& p, const StepBooks& books) {
   const Motion before = motionOf(p);
   p.velocity.setZero();
   p.spin.setZero();
-  bookContact({.surface = p.support}, changeOf(before, motionOf(p)), books);
+  bookRemainder(p.support, changeOf(before, motionOf(p)), 0, books);
 }
 
 }  // namespace rubble::debris

@@ -3,14 +3,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
-#include <span>
 
 #include "debris/debris_collider.h"
 #include "debris/flight.h"
 #include "debris/motion.h"
+#include "debris/surfaces.h"
 
 namespace rubble::debris {
+
+/// The surfaces that hold a piece. A piece lies in the dimple of three balls, or in a corner of three walls;
+/// of more the last ones are kept.
+struct Supports {
+  std::array<std::uint32_t, 4> ids;
+  std::uint32_t count;
+
+  void add(std::uint32_t id);
+  const std::uint32_t* begin() const { return ids.data(); }
+  const std::uint32_t* end() const { return ids.data() + count; }
+};
 
 /// State of a moving or resting piece. In double: positions in float would step by 1e-5 m at 100 m from the
 /// origin, and the angular momentum of a small piece could not be closed there.
@@ -25,16 +37,8 @@ struct Particle {
   double friction;         // Coulomb mu
   double stillTime;        // time that it has been slower than the rest speed [s]
   std::uint32_t support;   // surface last touched
+  Supports supports;       // surfaces touched since it has been still
   bool touched;            // in the last step
-};
-
-/// What a surface received from the debris in one step, about the world's origin.
-struct SurfaceImpulse {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]
-  std::uint32_t hits = 0;
-
-  Eigen::Vector3d angularAbout(const Eigen::Vector3d& origin) const { return angular - origin.cross(linear); }
 };
 
 /// What changed the motion of the debris.
@@ -43,7 +47,7 @@ struct Exchange {
   Impulse air;      ///< energy: minus what the air took
   Impulse contact;  ///< energy: what hits took (negative) or moving surfaces gave
   /// Work done on the surroundings by contact [J]; contact.energy + workOnSurfaces is minus what contacts
-  /// dissipated.
+  /// dissipated: restitution, friction, and what a piece had left when it came to rest.
   double workOnSurfaces = 0;
   Motion added;
   Motion removed;
@@ -62,7 +66,7 @@ struct StepInput {
 /// Where a step books.
 struct StepBooks {
   Exchange* exchange;
-  std::span<SurfaceImpulse> surfaces;
+  Surfaces* surfaces;
 };
 
 /// Motion of one piece.

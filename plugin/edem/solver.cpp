@@ -83,7 +83,8 @@ class SolverOf final : public Solver {
 
   BodyView view(std::uint32_t id) const override {
     const Body<Real>& b = of(id);
-    return {b.alive, b.intact, b.fragment, b.mass, b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep};
+    return {b.alive,         b.intact,       b.fragment,    b.mass,  b.inertia,
+            b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {

@@ -29,6 +29,7 @@ struct BodyView {
   std::span<const std::uint8_t> intact;  ///< springs, then anchors
   std::span<const std::uint32_t> fragment;
   std::span<const double> mass;
+  std::span<const double> inertia;  ///< scalar moments [kg m^2]
   std::uint32_t fragments = 0, crushed = 0, broken = 0;
   bool asleep = false;
 };

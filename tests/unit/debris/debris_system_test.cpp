@@ -197,6 +197,26 @@ TEST(Rest, PieceFallsWhenItsSupportIsGone) {
   EXPECT_NEAR(double(system.pieces()[0].position.y()), 1 + 0.005 - 9.81 / 2, 1e-4);
 }
 
+TEST(Rest, EverySurfaceThatHoldsAPieceIsItsSupport) {
+  // In a corner of two walls and a floor: whichever goes, the piece is looked at again.
+  for (const std::uint32_t leaving : {0u, 1u, 2u}) {
+    DebrisSystem system(DebrisSystemDef{});
+    const DebrisParcel parcel = test::stone({0.02, 0.02, 0.02}, {-1, 0, -1});
+    system.add({&parcel, 1});
+    const Vector3d slanting = Vector3d(1, 1, 0).normalized(), other = Vector3d(0, 1, 1).normalized();
+    Surroundings dimple({{.normal = slanting, .surface = 0},
+                         {.normal = other, .surface = 1},
+                         {.normal = Vector3d(-1, 1, -1).normalized(), .surface = 2}});
+    dimple.surfaces = 4;
+    for (int i = 0; i < 480; ++i) system.step(kTick, kDown, dimple);
+    ASSERT_EQ(system.restingCount(), 1u);
+    EXPECT_EQ(dimple.supports.size(), 3u);
+    const std::uint32_t another = 3;
+    EXPECT_EQ(system.wakeSupports({&another, 1}), 0u);
+    EXPECT_EQ(system.wakeSupports({&leaving, 1}), 1u);
+  }
+}
+
 TEST(Rest, BoxWakesWhatIsInIt) {
   DebrisSystem system(DebrisSystemDef{});
   for (int i = 0; i < 10; ++i) {

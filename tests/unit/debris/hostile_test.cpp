@@ -179,7 +179,10 @@ TEST(HostileSystem, LongStepsAndExtremePiecesStayFinite) {
 
 class LyingCollider : public DebrisCollider {
  public:
-  DebrisHit answer;
+  DebrisHit answer{};
+  DebrisSurface body{};
+  std::uint32_t surfaceCount() const override { return 1; }
+  DebrisSurface surface(std::uint32_t) const override { return body; }
   bool sweep(const Vector3d&, const Vector3d&, double, DebrisHit& hit) override {
     hit = answer;
     return true;
@@ -202,9 +205,26 @@ TEST(HostileSystem, RefusesImpossibleHits) {
   EXPECT_THROW(step([](DebrisHit& h) { h.fraction = 1.5; }), Error);
   EXPECT_THROW(step([](DebrisHit& h) { h.normal.setZero(); }), Error);
   EXPECT_THROW(step([](DebrisHit& h) { h.point.x() = kInfinity; }), Error);
-  EXPECT_THROW(step([](DebrisHit& h) { h.surfaceVelocity.x() = kNan; }), Error);
-  EXPECT_THROW(step([](DebrisHit& h) { h.inverseMass = -1; }), Error);
   EXPECT_THROW(step([](DebrisHit& h) { h.surface = 7; }), Error);
+}
+
+TEST(HostileSystem, RefusesImpossibleSurfaces) {
+  const auto step = [&](const std::function<void(DebrisSurface&)>& change) {
+    DebrisSystem system({.maxDebris = 4});
+    const DebrisParcel parcel = test::stone(0.1);
+    system.add({&parcel, 1});
+    LyingCollider collider;
+    collider.answer = {.fraction = 0.5, .normal = Vector3d::UnitY(), .surface = 0};
+    change(collider.body);
+    system.step(0.01, kDown, collider);
+  };
+  EXPECT_NO_THROW(step([](DebrisSurface&) {}));
+  EXPECT_THROW(step([](DebrisSurface& s) { s.centre.x() = kInfinity; }), Error);
+  EXPECT_THROW(step([](DebrisSurface& s) { s.velocity.x() = kNan; }), Error);
+  EXPECT_THROW(step([](DebrisSurface& s) { s.spin.z() = kNan; }), Error);
+  EXPECT_THROW(step([](DebrisSurface& s) { s.inverseMass.y() = -1; }), Error);
+  EXPECT_THROW(step([](DebrisSurface& s) { s.inverseInertia(1, 1) = -1; }), Error);
+  EXPECT_THROW(step([](DebrisSurface& s) { s.inverseInertia(0, 1) = kNan; }), Error);
 }
 
 }  // namespace

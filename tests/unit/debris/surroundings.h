@@ -1,7 +1,8 @@
-// Planes for debris to fall on.
+// Planes and balls for debris to fall on.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "debris/debris_collider.h"
@@ -18,12 +19,26 @@ struct TestPlane {
   std::uint32_t surface = debris::kFixedSurface;
 };
 
+/// A ball that hits may push and turn.
+struct TestBall {
+  debris::DebrisSurface body{};
+  double radius = 0;  ///< [m]
+  std::uint32_t surface = debris::kFixedSurface;
+
+  debris::Motion motion() const {
+    return debris::motionOf(1 / body.inverseMass.x(), 1 / body.inverseInertia(0, 0), body.centre,
+                            body.velocity, body.spin);
+  }
+};
+
 class Surroundings : public debris::DebrisCollider {
  public:
   Surroundings() = default;
   explicit Surroundings(std::vector<TestPlane> some) : planes(std::move(some)) {}
 
   std::vector<TestPlane> planes;
+  std::vector<TestBall> balls;
+  std::vector<std::uint32_t> supports;  ///< as they were noted
   std::uint32_t surfaces = 0;
   Eigen::AlignedBox3d swept;
   std::size_t sweeps = 0;
@@ -33,6 +48,18 @@ class Surroundings : public debris::DebrisCollider {
     sweeps = 0;
   }
   std::uint32_t surfaceCount() const override { return surfaces; }
+  debris::DebrisSurface surface(std::uint32_t id) const override {
+    debris::DebrisSurface body{};
+    for (const TestPlane& plane : planes) {
+      if (plane.surface != id) continue;
+      body.velocity = plane.velocity;
+      body.inverseMass.setConstant(plane.inverseMass);
+    }
+    for (const TestBall& ball : balls)
+      if (ball.surface == id) body = ball.body;
+    return body;
+  }
+  void noteSupport(std::uint32_t id) override { supports.push_back(id); }
 
   bool sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
              debris::DebrisHit& hit) override {
@@ -49,11 +76,27 @@ class Surroundings : public debris::DebrisCollider {
       hit.fraction = fraction;
       hit.point = centre - (plane.normal.dot(centre) - plane.offset) * plane.normal;
       hit.normal = plane.normal;
-      hit.surfaceVelocity = plane.velocity;
-      hit.inverseMass = plane.inverseMass;
       hit.surface = plane.surface;
     }
+    for (const TestBall& ball : balls) first = std::min(first, sweepBall(ball, from, to, radius, first, hit));
     return first <= 1;
+  }
+
+ private:
+  static double sweepBall(const TestBall& ball, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                          double radius, double first, debris::DebrisHit& hit) {
+    const Eigen::Vector3d along = to - from, out = from - ball.body.centre;
+    const double reach = ball.radius + radius;
+    const double a = along.squaredNorm(), b = out.dot(along), c = out.squaredNorm() - reach * reach;
+    const double root = b * b - a * c;
+    if (b >= 0 || root < 0) return 2;
+    const double fraction = std::max(0.0, (-b - std::sqrt(root)) / a);
+    if (fraction > 1 || fraction >= first) return 2;
+    hit.fraction = fraction;
+    hit.normal = (out + fraction * along).normalized();
+    hit.point = ball.body.centre + ball.radius * hit.normal;
+    hit.surface = ball.surface;
+    return fraction;
   }
 };
 
