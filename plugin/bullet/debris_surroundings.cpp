@@ -108,6 +108,16 @@ debris::DebrisSurface DebrisSurroundings::surface(std::uint32_t id) const {
   return s;
 }
 
+void DebrisSurroundings::noteSupport(std::uint32_t id) {
+  const Place place = m_places[id];
+  if (place.isElement) {
+    const ElementBall& ball = m_balls[place.index];
+    m_supports.addElement(id, *ball.object, ball.body, ball.element);
+  } else {
+    m_supports.add(id, *m_objects[place.index].object);
+  }
+}
+
 bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d& from,
                                      const Eigen::Vector3d& to, double radius, debris::DebrisHit& hit) const {
   Eigen::AlignedBox3d path(from.cwiseMin(to), from.cwiseMax(to));

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "bullet/debris_supports.h"
 #include "bullet/rigid_proxies.h"
 #include "debris/debris_collider.h"
 #include "debris/motion.h"
@@ -27,16 +28,20 @@ struct ElementPush {
 class DebrisSurroundings : public debris::DebrisCollider {
  public:
   DebrisSurroundings(btDiscreteDynamicsWorld& world, edem::Solver& solver, RigidProxies& proxies)
-      : m_world(world), m_solver(solver), m_proxies(proxies) {}
+      : m_world(world), m_solver(solver), m_proxies(proxies), m_supports(world, solver) {}
 
   void begin(const Eigen::AlignedBox3d& swept) override;
   std::uint32_t surfaceCount() const override { return std::uint32_t(m_places.size()); }
   debris::DebrisSurface surface(std::uint32_t id) const override;
+  void noteSupport(std::uint32_t id) override;
   bool sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
              debris::DebrisHit& hit) override;
 
   /// Gives Bullet's bodies and the elements what debris did to them in the last step.
   ElementPush push(std::span<const debris::SurfaceImpulse> impulses);
+
+  /// What debris rest on.
+  DebrisSupports& supports() { return m_supports; }
 
  private:
   struct Object {
@@ -70,6 +75,7 @@ class DebrisSurroundings : public debris::DebrisCollider {
   btDiscreteDynamicsWorld& m_world;
   edem::Solver& m_solver;
   RigidProxies& m_proxies;
+  DebrisSupports m_supports;
   std::vector<Object> m_objects;
   // Surface ids are given when an object or a body is first met, to a body one for each element, and never to
   // another body. An object that is made where a deleted one was inherits its id: by then nothing rests on

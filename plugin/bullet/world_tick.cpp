@@ -427,16 +427,20 @@ void Destruction::Impl::breakElements() {
 void Destruction::Impl::stepDebris(double dt) {
   BT_PROFILE("Rubble step debris");
   if (debrisSystem->restingCount() > 0) {
+    debrisSystem->wakeSupports(surroundings->supports().takeDeparted());
     for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
       const btCollisionObject* object = world.getCollisionObjectArray()[i];
       const btRigidBody* rigid = btRigidBody::upcast(object);
-      if (!rigid || object->isStaticOrKinematicObject() || DestructibleBody::upcast(object)) continue;
-      if (!rigid->isActive() || double(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
+      const bool moves = rigid && (object->isKinematicObject() || !object->isStaticObject());
+      if (!moves || !rigid->isActive() || DestructibleBody::upcast(object)) continue;
+      if (double(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
       btVector3 low, high;
       rigid->getAabb(low, high);
       wakeBoxes.emplace_back(toEigen(low), toEigen(high));
     }
     if (!wakeBoxes.empty()) debrisSystem->wake(wakeBoxes);
+  } else {
+    surroundings->supports().clear();
   }
   wakeBoxes.clear();
   if (debrisSystem->movingCount() > 0) {

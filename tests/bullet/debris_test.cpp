@@ -1,6 +1,8 @@
 // Debris against what Bullet and the elements put in their way: pushes, and what they rest on.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "bullet/bullet_world.h"
 #include "bullet/convert.h"
 #include "bullet/world_tick.h"
@@ -143,6 +145,187 @@ TEST(DebrisPush, PiecesOfOneTickMakeNoEnergyOnALightBody) {
     const Eigen::Vector3d lost = start.linear + exchange.air.linear - pieces.linear;
     EXPECT_NEAR(0.09 * v.x(), lost.x(), 1e-6);
     EXPECT_NEAR(0.09 * v.y(), lost.y(), 1e-6);
+  }
+}
+
+constexpr double kStone = 0.012;  // radius [m]: does not fall through between the slab's elements
+
+// A world with stones at rest on something.
+struct RestingDebris : BulletWorld {
+  using BulletWorld::BulletWorld;
+
+  debris::DebrisSystem& system() { return *destruction->impl().debrisSystem; }
+  void run(double seconds) {
+    for (int i = 0; i < std::lround(seconds * 240); ++i)
+      world.stepSimulation(btScalar(kTick), 1, btScalar(kTick));
+  }
+  // Nine stones a little above `height`, at rest on it afterwards.
+  void strew(double height) {
+    for (int x = -1; x <= 1; ++x)
+      for (int z = -1; z <= 1; ++z) {
+        const DebrisParcel parcel =
+            stone({0.05 * x, height + 0.015, 0.05 * z}, Eigen::Vector3d::Zero(), kStone);
+        system().add({&parcel, 1});
+      }
+    run(2);
+    ASSERT_EQ(system().restingCount(), 9u);
+    ASSERT_GT(lowest(), height - 0.03);
+  }
+  double lowest() {
+    double y = 1e9;
+    for (const DebrisPiece& piece : system().pieces()) y = std::min(y, double(piece.position.y()));
+    return y;
+  }
+  double highest() {
+    double y = -1e9;
+    for (const DebrisPiece& piece : system().pieces()) y = std::max(y, double(piece.position.y()));
+    return y;
+  }
+  // 100 elements of 5 cm in one layer, its top at `height`.
+  DestructibleBody* addSlab(double height) {
+    DestructibleBodyDef def;
+    def.asset = std::make_shared<const Asset>(gridAsset(
+        {.cubes = {10, 1, 10}, .edge = 0.05, .origin = {-0.25, height - 0.05, -0.25}, .anchored = false}));
+    def.material = material("concrete_soft");
+    def.anchored = false;
+    return destruction->addBody(def);
+  }
+
+  btBoxShape shelfShape{{btScalar(0.3), btScalar(0.1), btScalar(0.3)}};
+};
+
+void removeAndDelete(btDynamicsWorld& world, btRigidBody* body) {
+  world.removeRigidBody(body);
+  delete body;
+}
+
+TEST(DebrisSupport, NothingWakesWhileNothingMoves) {
+  RestingDebris w;
+  w.add(0, w.shelfShape, {0, btScalar(0.9), 0});
+  w.strew(1);
+  for (int i = 0; i < 240; ++i) {
+    w.run(kTick);
+    ASSERT_EQ(w.system().movingCount(), 0u);
+  }
+}
+
+TEST(DebrisSupport, StaticBodyThatIsDeletedLeavesThemToTheGround) {
+  RestingDebris w;
+  btRigidBody* other = w.add(0, w.shelfShape, {3, btScalar(0.9), 0});
+  btRigidBody* shelf = w.add(0, w.shelfShape, {0, btScalar(0.9), 0});
+  w.strew(1);
+  removeAndDelete(w.world, other);  // moves the shelf in the world's list
+  w.run(0.1);
+  EXPECT_EQ(w.system().movingCount(), 0u);
+  removeAndDelete(w.world, shelf);
+  w.run(2);
+  EXPECT_LT(w.highest(), kStone + 2e-4) << "they lie 1e-5 m above it";
+  EXPECT_EQ(w.system().restingCount(), 9u);
+}
+
+TEST(DebrisSupport, SleepingBodyThatIsRemovedLeavesThemToTheGround) {
+  RestingDebris w;
+  btRigidBody* crate = w.add(20, w.shelfShape, {0, btScalar(0.1), 0});
+  w.run(4);
+  ASSERT_FALSE(crate->isActive());
+  w.strew(0.2);
+  removeAndDelete(w.world, crate);
+  w.run(1);
+  EXPECT_LT(w.highest(), kStone + 2e-4);
+}
+
+TEST(DebrisSupport, KinematicPlatformTakesThemAlong) {
+  // Both ways in which Bullet's users make a body kinematic.
+  for (const int flags : {0, int(btCollisionObject::CF_STATIC_OBJECT)}) {
+    RestingDebris w;
+    btRigidBody* platform = w.add(0, w.shelfShape, {0, btScalar(0.9), 0});
+    platform->setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
+    platform->setActivationState(DISABLE_DEACTIVATION);
+    w.strew(1);
+    for (int i = 1; i <= 240; ++i) {
+      platform->setWorldTransform(
+          btTransform(btQuaternion::getIdentity(), {0, btScalar(0.9 - 0.5 * i * kTick), 0}));
+      w.run(kTick);
+    }
+    w.run(1);
+    EXPECT_NEAR(w.highest(), 0.5 + kStone, 1e-3) << flags;
+    EXPECT_NEAR(w.lowest(), 0.5 + kStone, 1e-3) << flags;
+    platform->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.1), 0}));  // drops
+    w.run(1);
+    EXPECT_NEAR(w.highest(), 0.2 + kStone, 1e-3) << flags;
+  }
+}
+
+TEST(DebrisSupport, TiltingPlatformIsLeft) {
+  // Its middle stays where it is; only its ends move.
+  RestingDebris w;
+  btRigidBody* platform = w.add(0, w.shelfShape, {0, btScalar(0.9), 0});
+  platform->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+  platform->setActivationState(DISABLE_DEACTIVATION);
+  w.strew(1);
+  platform->setWorldTransform(
+      btTransform(btQuaternion({0, 0, 1}, btScalar(std::numbers::pi / 3)), {0, btScalar(0.9), 0}));
+  w.run(3);
+  EXPECT_LT(w.highest(), kStone + 2e-4) << "steeper than friction holds";
+}
+
+TEST(DebrisSupport, FallingSlabTakesThemAlong) {
+  DestructionDef def;
+  def.breaking = def.crushing = false;
+  RestingDebris w(def);
+  btRigidBody* shelf = w.add(0, w.shelfShape, {0, btScalar(0.4), 0});
+  DestructibleBody* slab = w.addSlab(0.551);
+  w.run(4);
+  w.strew(0.551);
+  // 0.5 m down to the ground.
+  removeAndDelete(w.world, shelf);
+  slab->activate(true);
+  w.run(3);
+  EXPECT_LT(w.highest(), 0.05 + kStone);
+  EXPECT_GT(w.lowest(), 0);
+}
+
+TEST(DebrisSupport, SleepingSlabThatIsRemovedLeavesThemToTheGround) {
+  for (const bool byApplication : {false, true}) {
+    RestingDebris w;
+    DestructibleBody* slab = w.addSlab(0.051);
+    w.run(6);
+    ASSERT_TRUE(slab->isAsleep());
+    w.strew(0.051);
+    ASSERT_TRUE(slab->isAsleep());
+    if (byApplication) {
+      removeAndDelete(w.world, slab);
+    } else {
+      w.destruction->removeBody(slab);
+    }
+    w.run(1);
+    EXPECT_LT(w.highest(), kStone + 2e-4);
+  }
+}
+
+TEST(DebrisSupport, NothingHangsAfterTheSlabIsShotAway) {
+  RestingDebris w;
+  w.add(0, w.shelfShape, {btScalar(0.45), btScalar(0.4), 0});
+  w.add(0, w.shelfShape, {btScalar(-0.45), btScalar(0.4), 0});
+  DestructibleBody* slab = w.addSlab(0.551);
+  w.run(3);
+  w.strew(0.551);
+  w.add(10, w.ballShape, {0, btScalar(1), 0})->setLinearVelocity({0, -15, 0});
+  w.run(3);
+  ASSERT_GT(w.destruction->counts().springsBroken, 0u);
+  std::vector<ElementPose> poses(slab->asset()->elementCount());
+  slab->poses(poses);
+  for (const DebrisPiece& piece : w.system().pieces()) {
+    if (!piece.resting || piece.position.y() < 1.1f * piece.radius) continue;
+    const double radius = double(piece.radius);
+    // Shelves' tops are at 0.5 m.
+    double gap = std::abs(double(piece.position.y()) - 0.5) - 1.1 * radius;
+    for (const ElementPose& pose : poses) {
+      if (pose.alive <= 0) continue;
+      gap = std::min(gap,
+                     double((piece.position - pose.position).norm()) - slab->asset()->radius - 1.1 * radius);
+    }
+    EXPECT_LT(gap, 0) << piece.position.transpose();
   }
 }
 
