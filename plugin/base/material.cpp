@@ -63,6 +63,7 @@ Model Model::paper() {
   model.rotationalStiffness = false;
   model.contactBesideSpring = true;
   model.coulombFriction = false;
+  model.contactMemory = false;
   model.conserveDebris = false;
   model.debrisSizes = DebrisSizes::Number;
   model.cellJoining = CellJoining::Direct;

@@ -25,6 +25,13 @@ std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
   return hash.value();
 }
 
+// Names an object for as long as it lives: by its number in the broadphase, which another object at the
+// address of a deleted one does not get.
+std::uint64_t keyOf(const btCollisionObject& object) {
+  const btBroadphaseProxy* handle = object.getBroadphaseHandle();
+  return handle ? std::uint64_t(std::uint32_t(handle->m_uniqueId)) + 1 : 0;
+}
+
 std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& points) {
   std::vector<btVector3> input;
   for (const Eigen::Vector3d& p : points) input.push_back(toBullet(p));
@@ -145,11 +152,14 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
   proxy.position = toEigen(object.getWorldTransform().getOrigin());
   proxy.orientation = toEigen(object.getWorldTransform().getRotation()).normalized();
   proxy.friction = double(object.getFriction());
+  proxy.key = keyOf(object);
   const btRigidBody* rigid = btRigidBody::upcast(&object);
-  if (rigid && !object.isStaticObject()) {
+  // Bullet's manual makes kinematic bodies of static ones and leaves the flag for static set.
+  proxy.kinematic = object.isKinematicObject();
+  if (rigid && (proxy.kinematic || !object.isStaticObject())) {
     proxy.velocity = toEigen(rigid->getLinearVelocity());
     proxy.spin = toEigen(rigid->getAngularVelocity());
-    proxy.inverseMass = object.isKinematicObject() ? 0.0 : double(rigid->getInvMass());
+    proxy.inverseMass = proxy.kinematic ? 0.0 : double(rigid->getInvMass());
   }
   if (proxy.isDynamic()) {
     // All that Bullet's solver will integrate in this tick: gravity and the application's forces.

@@ -25,7 +25,7 @@ struct TouchedBody {
   btVector3 velocity{0, 0, 0}, spin{0, 0, 0};                     ///< before the tick
   btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
   /// Where the body would be at the end of the tick under its impulse as a whole.
-  btVector3 freeEnd{0, 0, 0};
+  btTransform freeEnd = btTransform::getIdentity();
 };
 
 /// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.
@@ -70,6 +70,7 @@ struct Destruction::Impl {
   int filling = 0;
   DestructionTimes times;
   std::string failure;
+  bool warned = false;  ///< of a tick that could not be followed; once is enough
   int substeps = 0;
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0;
   debris::DebrisBatch batch;
@@ -82,6 +83,7 @@ struct Destruction::Impl {
   void lateImpulses();
   void fixPositions();
   void noteReactions(double dt);
+  bool isHeld(const btRigidBody& rigid) const;
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();

@@ -188,13 +188,20 @@ void makePairs(Body<Real>& body) {
 template <class Real>
 void makeContact(Body<Real>& body) {
   const Material& m = body.material;
-  body.radius = Real(body.asset->radius);
-  body.contactStiffness = m.contactStiffness * m.youngsModulus * body.asset->spacing();
-  const double meanMass =
-      std::accumulate(body.mass.begin(), body.mass.end(), 0.0) / double(body.elementCount());
-  body.contact.stiffness = Real(body.contactStiffness);
-  body.contact.damping = Real(dashpot(m.contactDamping, body.contactStiffness, 0.5 * meanMass));
-  body.contact.friction = body.model.coulombFriction ? Real(m.friction) : Real(-1);
+  const double n = double(body.elementCount());
+  const double mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0) / n;
+  const double inertia = std::accumulate(body.inertia.begin(), body.inertia.end(), 0.0) / n;
+  const double radius = body.asset->radius;
+  body.radius = Real(radius);
+  ContactSide& contact = body.contact;
+  contact.stiffness = m.contactStiffness * m.youngsModulus * body.asset->spacing();
+  contact.mobility = 1 / mass;
+  contact.turning = radius * radius / inertia;
+  contact.radius = radius;
+  contact.damping = m.contactDamping;
+  contact.friction = body.model.coulombFriction ? m.friction : -1;
+  contact.rollingFriction = m.rollingFriction;
+  contact.memory = body.model.contactMemory;
 }
 
 template <class Real>
@@ -211,9 +218,10 @@ void makeState(Body<Real>& body, const BodyDef& def) {
     body.velocity[i] = (def.velocity + def.spin.cross(body.turn * body.restCentred[i])).template cast<Real>();
   body.alive.assign(n, 1);
   body.load.assign(n, Real(0));
-  body.groundRange.assign(n, body.radius);
+  body.touchesBegun.assign(n, 0);
+  body.anchored.assign(n, 0);
   for (std::size_t a = body.anchorBegin; a < body.springs.size(); ++a)
-    body.groundRange[body.springs[a].first] = Real(kHeldByAnchor);
+    body.anchored[body.springs[a].first] = 1;
   body.overloaded.reserve(body.springs.size());
   body.overloadMode.reserve(body.springs.size());
   body.crushing.reserve(n);

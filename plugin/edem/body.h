@@ -43,10 +43,6 @@ struct PairIndex {
 
 inline constexpr std::uint32_t kNoPair = 0xffffffffu;
 
-// Special values of Body::groundRange.
-inline constexpr int kHeldByAnchor = -1;
-inline constexpr int kJustReleased = -2;
-
 template <class Real>
 struct Body {
   std::uint32_t id = 0;
@@ -73,9 +69,8 @@ struct Body {
   std::vector<std::uint32_t> pairOffsets;  ///< CSR: partners of each element, sorted by partner
   std::vector<PairIndex> pairs;
   Criterion<Real> criterion{};
-  ContactLaw<Real> contact{};  ///< between two elements
+  ContactSide contact;  ///< of an element of mean mass; k_n = contactStiffness E h
   Real radius = 0;
-  double contactStiffness = 0;  ///< k_cn = contactStiffness E h [N/m]
 
   // State.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -87,12 +82,10 @@ struct Body {
   std::vector<Vec3<Real>> velocityCarry;
   std::vector<Vec3<Real>> spin;  ///< [rad/s]
   std::vector<std::uint8_t> alive;
-  std::vector<std::uint8_t> intact;  ///< springs, then anchors
-  std::vector<Real> range;           ///< D of each pair [m]
-  /// D against static rigid bodies [m]; kHeldByAnchor while an anchor carries the element (no contact then),
-  /// kJustReleased once its last anchor broke: the next contact sets it to min(r, distance), so that a break
-  /// gives no kick.
-  std::vector<Real> groundRange;
+  std::vector<std::uint8_t> intact;         ///< springs, then anchors
+  std::vector<Real> range;                  ///< D of each pair [m]
+  std::vector<std::uint16_t> touchesBegun;  ///< at each element since the substep was chosen
+  std::vector<std::uint8_t> anchored;       ///< 1 while an anchor carries the element
   /// Lowest element connected with I through springs; kNoElement if crushed.
   std::vector<std::uint32_t> fragment;
   std::uint32_t fragmentCount = 0;

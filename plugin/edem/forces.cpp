@@ -1,4 +1,4 @@
-// The force stages of a substep: springs and element contacts.
+// The springs of a substep: their forces, and which of them break.
 #include <cassert>
 #include <cmath>
 
@@ -34,82 +34,6 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
   const Vec3<Real> torque = load.armFirst.cross(force) + load.elasticTorque + load.dampingTorque;
   const Eigen::Vector3d arm = body.origin - books.centre + body.position[i].template cast<double>();
   books.anchors.push(signedKick, force.template cast<double>(), arm, torque.template cast<double>());
-}
-
-// One touching pair. Forces on the second element.
-template <class Real>
-struct PairTouch {
-  bool touches = false;
-  ContactForce<Real> force;
-  Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
-  Real energy = 0;                 // elastic [J]
-  Real power = 0;                  // of the elastic force [W]
-};
-
-// Contact distance D of a pair, law 2: own to joined pairs and to pairs overlapping at rest, and
-// growing with their distance.
-template <class Real>
-Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance) {
-  const Real free = a.radius + b.radius;
-  if (entry.pair == kNoPair) return free;
-  Real& range = a.range[entry.pair];
-  if (distance > range) range = std::fmin(distance, free);
-  return range;
-}
-
-template <class Real>
-PairTouch<Real> touchPair(const PairEntry& entry, const Vec3<Real>& offset, Body<Real>& a, Body<Real>& b) {
-  PairTouch<Real> touch;
-  const std::uint32_t i = entry.first, j = entry.second;
-  assert(i < a.elementCount() && j < b.elementCount());
-  if (!a.alive[i] || !b.alive[j]) return touch;
-  const Vec3<Real> between = (b.position[j] - a.position[i]) + offset;
-  const Real distance2 = between.squaredNorm();
-  const Real free = a.radius + b.radius;
-  if (distance2 >= free * free) {
-    if (entry.pair != kNoPair) a.range[entry.pair] = free;
-    return touch;
-  }
-  const Real distance = std::sqrt(distance2);
-  const Real overlap = contactDistance(entry, a, b, distance) - distance;
-  if (!(overlap > Real(0)) || !(distance > Real(0))) return touch;
-  touch.touches = true;
-  const Vec3<Real> normal = between / distance;
-  touch.armFirst = between * (a.radius / free);
-  touch.armSecond = -between * (b.radius / free);
-  const Vec3<Real> approach =
-      b.velocity[j] + b.spin[j].cross(touch.armSecond) - a.velocity[i] - a.spin[i].cross(touch.armFirst);
-  // Different materials touch with the mean law.
-  const ContactLaw<Real> law{Real(0.5) * (a.contact.stiffness + b.contact.stiffness),
-                             Real(0.5) * (a.contact.damping + b.contact.damping),
-                             Real(0.5) * (a.contact.friction + b.contact.friction)};
-  touch.force = contactForce(law, overlap, normal, approach);
-  touch.energy = Real(0.5) * law.stiffness * overlap * overlap;
-  touch.power = touch.force.elastic.dot(approach);
-  return touch;
-}
-
-template <class Real>
-void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body<Real>& b, std::uint32_t j,
-              Real sign) {
-  const Vec3<Real> damping = sign * touch.force.damping;
-  const Vec3<Real> all = sign * touch.force.elastic + damping;
-  a.force[i] -= all;
-  b.force[j] += all;
-  a.dampingForce[i] -= damping;
-  b.dampingForce[j] += damping;
-  // The elastic part is along the arms and turns nothing.
-  const Vec3<Real> torqueFirst = -touch.armFirst.cross(damping),
-                   torqueSecond = touch.armSecond.cross(damping);
-  a.torque[i] += torqueFirst;
-  b.torque[j] += torqueSecond;
-  a.dampingTorque[i] += torqueFirst;
-  b.dampingTorque[j] += torqueSecond;
-}
-
-template <class Real>
-Vec3<Real> offsetBetween(const Body<Real>& a, const Body<Real>& b) {
-  return (b.origin - a.origin).template cast<Real>();
 }
 
 }  // namespace
@@ -156,32 +80,6 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
     }
   }
   return elastic;
-}
-
-template <class Real>
-double accumulateContacts(const PairList& list, Body<Real>& a, Body<Real>& b) {
-  const Vec3<Real> offset = offsetBetween(a, b);
-  double elastic = 0;
-  for (const PairEntry& entry : list.entries) {
-    const PairTouch<Real> touch = touchPair(entry, offset, a, b);
-    if (!touch.touches) continue;
-    elastic += double(touch.energy);
-    addTouch(touch, a, entry.first, b, entry.second, Real(1));
-  }
-  return elastic;
-}
-
-template <class Real>
-void releaseContacts(const PairList& list, Body<Real>& a, Body<Real>& b, double kick, Books& books) {
-  const Vec3<Real> offset = offsetBetween(a, b);
-  for (const PairEntry& entry : list.entries) {
-    if (!a.leaving[entry.first] && !b.leaving[entry.second]) continue;
-    const PairTouch<Real> touch = touchPair(entry, offset, a, b);
-    if (!touch.touches) continue;
-    addTouch(touch, a, entry.first, b, entry.second, Real(-1));
-    books.elastic -= double(touch.energy);
-    books.fracture += double(touch.energy) + 0.5 * kick * double(touch.power);
-  }
 }
 
 template <class Real>
@@ -232,7 +130,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
       bool held = false;
       for (std::uint32_t q = body.springOffsets[spring.first]; q < body.springOffsets[spring.first + 1]; ++q)
         held = held || (body.isAnchor(body.springsOf[q]) && body.intact[body.springsOf[q]]);
-      if (!held) body.groundRange[spring.first] = Real(kJustReleased);
+      if (!held) body.anchored[spring.first] = 0;
     } else {
       const Real distance = (body.position[spring.second] - body.position[spring.first]).norm();
       body.range[s] = std::fmin(Real(2) * body.radius, distance);
@@ -245,10 +143,6 @@ template void beginSubstep(Body<float>&);
 template void beginSubstep(Body<double>&);
 template double accumulateSprings(Body<float>&, double, bool, Books&);
 template double accumulateSprings(Body<double>&, double, bool, Books&);
-template double accumulateContacts(const PairList&, Body<float>&, Body<float>&);
-template double accumulateContacts(const PairList&, Body<double>&, Body<double>&);
-template void releaseContacts(const PairList&, Body<float>&, Body<float>&, double, Books&);
-template void releaseContacts(const PairList&, Body<double>&, Body<double>&, double, Books&);
 template void markCrushed(Body<float>&);
 template void markCrushed(Body<double>&);
 template void applyBreaks(Body<float>&, std::uint32_t, double, PairLists<float>&, Books&, TickReport&);

@@ -1,8 +1,9 @@
 #include "edem/pair_lists.h"
 
-#include <cassert>
-
 #include <algorithm>
+#include <cassert>
+#include <tuple>
+#include <utility>
 
 namespace rubble::edem {
 namespace {
@@ -17,58 +18,93 @@ std::uint32_t pairOf(const Body<Real>& body, std::uint32_t i, std::uint32_t j) {
   return found != end && found->partner == j ? found->pair : kNoPair;
 }
 
+bool before(const PairEntry& a, const PairEntry& b) {
+  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+// Brings the list into its order and gives pairs that touched in `old` their memory back.
+template <class Real>
+void remember(PairList<Real>& list, const PairList<Real>* old) {
+  std::sort(list.entries.begin(), list.entries.end(), before);
+  list.memory.assign(list.entries.size(), {});
+  if (!old) return;
+  list.elastic = old->elastic;
+  std::size_t k = 0;
+  for (std::size_t o = 0; o < old->entries.size(); ++o) {
+    if (!old->entries[o].touching && !(old->memory[o].range > Real(0))) continue;
+    while (k < list.entries.size() && before(list.entries[k], old->entries[o])) ++k;
+    if (k == list.entries.size()) return;
+    if (before(old->entries[o], list.entries[k])) continue;
+    list.entries[k].touching = old->entries[o].touching;
+    list.memory[k] = old->memory[o];
+  }
+}
+
 }  // namespace
+
+template <class Real>
+void PairLists<Real>::grid(const Body<Real>& body, ElementGrid<Real>& out) const {
+  out.listed = body.position;
+  out.grid.build(out.listed, body.alive, Real(2) * body.radius + Real(m_skin));
+  out.bounds.setEmpty();
+  for (std::size_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i]) out.bounds.extend(body.origin + out.listed[i].template cast<double>());
+}
+
+// The old list of two bodies, or a new one.
+template <class Real>
+PairList<Real> PairLists<Real>::take(const Body<Real>& a, const Body<Real>& b, std::uint32_t placeA,
+                                     std::uint32_t placeB) {
+  PairList<Real> list;
+  for (PairList<Real>& o : m_old) {
+    if (o.firstId != a.id || o.secondId != b.id) continue;
+    list = std::move(o);
+    o.firstId = o.secondId = kNoPair;
+    break;
+  }
+  list.first = placeA;
+  list.second = placeB;
+  list.firstId = a.id;
+  list.secondId = b.id;
+  list.law = contactLaw(a.contact, b.contact).template cast<Real>();
+  return list;
+}
 
 template <class Real>
 void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin) {
   assert(skin >= 0);
   m_skin = skin;
   m_grids.resize(bodies.size());
-  while (m_lists.size() < bodies.size()) m_lists.emplace_back();
-  while (m_lists.size() > bodies.size()) {
-    m_spare.push_back(std::move(m_lists.back()));
-    m_lists.pop_back();
-  }
+  std::swap(m_old, m_lists);
+  m_lists.clear();
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    const Body<Real>& body = *bodies[b];
-    ElementGrid<Real>& grid = m_grids[b];
-    grid.listed = body.position;
-    grid.grid.build(grid.listed, body.alive, Real(2) * body.radius + Real(skin));
-    grid.bounds.setEmpty();
-    for (std::size_t i = 0; i < body.elementCount(); ++i)
-      if (body.alive[i]) grid.bounds.extend(body.origin + grid.listed[i].template cast<double>());
-    m_lists[b].first = m_lists[b].second = b;
-    m_lists[b].entries.clear();
-    if (!body.asleep) listWithin(body, b, m_lists[b]);
+    grid(*bodies[b], m_grids[b]);
+    PairList<Real> list = take(*bodies[b], *bodies[b], b, b);
+    if (!bodies[b]->asleep) listWithin(*bodies[b], b, list);
+    m_lists.push_back(std::move(list));
   }
   for (std::uint32_t a = 0; a < bodies.size(); ++a) {
     for (std::uint32_t b = a + 1; b < bodies.size(); ++b) {
-      if (bodies[a]->asleep && bodies[b]->asleep) continue;
       const double reach = double(bodies[a]->radius) + double(bodies[b]->radius) + skin;
       Eigen::AlignedBox3d grown = m_grids[a].bounds;
       if (grown.isEmpty() || m_grids[b].bounds.isEmpty()) continue;
       grown.min().array() -= reach;
       grown.max().array() += reach;
       if (!grown.intersects(m_grids[b].bounds)) continue;
-      PairList list;
-      if (!m_spare.empty()) {
-        list = std::move(m_spare.back());
-        m_spare.pop_back();
-      }
-      list.first = a;
-      list.second = b;
-      list.entries.clear();
-      listBetween(*bodies[a], *bodies[b], m_grids[a], m_grids[b], list);
+      PairList<Real> list = take(*bodies[a], *bodies[b], a, b);
+      if (!bodies[a]->asleep || !bodies[b]->asleep) listBetween(*bodies[a], *bodies[b], list);
       m_lists.push_back(std::move(list));
     }
   }
 }
 
 template <class Real>
-void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, PairList& list) {
+void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list) {
   const ElementGrid<Real>& own = m_grids[place];
   const Real distance = Real(2) * body.radius + Real(m_skin);
   const Real distance2 = distance * distance;
+  const PairList<Real> old = list;
+  list.entries.clear();
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
     if (!body.alive[i]) continue;
     const auto cell = own.grid.cellOf(own.listed[i]);
@@ -86,14 +122,17 @@ void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, Pa
       }
     }
   }
+  remember(list, &old);
 }
 
 template <class Real>
-void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, const ElementGrid<Real>& gridA,
-                                  const ElementGrid<Real>& gridB, PairList& list) {
+void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list) {
+  const ElementGrid<Real>&gridA = m_grids[list.first], &gridB = m_grids[list.second];
   const Vec3<Real> offset = (a.origin - b.origin).template cast<Real>();  // a's coordinates -> b's
   const Real distance = a.radius + b.radius + Real(m_skin);
   const Vec3<Real> reach = Vec3<Real>::Constant(distance);
+  const PairList<Real> old = list;
+  list.entries.clear();
   for (std::uint32_t i = 0; i < a.elementCount(); ++i) {
     if (!a.alive[i]) continue;
     if (gridB.bounds.squaredExteriorDistance(a.origin + gridA.listed[i].template cast<double>()) >
@@ -104,11 +143,22 @@ void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, cons
       if ((gridB.listed[j] - p).squaredNorm() < distance * distance) list.entries.push_back({i, j, kNoPair});
     });
   }
+  remember(list, &old);
 }
 
 template <class Real>
 void PairLists<Real>::addBroken(std::uint32_t body, const PairEntry& entry) {
-  m_lists[body].entries.push_back(entry);
+  PairList<Real>& list = m_lists[body];
+  const auto at = std::lower_bound(list.entries.begin(), list.entries.end(), entry, before);
+  list.memory.insert(list.memory.begin() + (at - list.entries.begin()), ContactMemory<Real>{});
+  list.entries.insert(at, entry);
+}
+
+template <class Real>
+void PairLists<Real>::removeBody(std::uint32_t place) {
+  // Places have shifted: the next build takes these lists by the ids of their bodies.
+  if (place < m_grids.size()) m_grids.erase(m_grids.begin() + place);
+  std::erase_if(m_lists, [place](const PairList<Real>& l) { return l.first == place || l.second == place; });
 }
 
 template class PairLists<float>;

@@ -13,15 +13,22 @@
 namespace rubble::edem {
 
 struct PairEntry {
-  std::uint32_t first;   ///< in the first body
-  std::uint32_t second;  ///< in the second body
-  std::uint32_t pair;    ///< into Body::range, or kNoPair
+  std::uint32_t first;    ///< in the first body
+  std::uint32_t second;   ///< in the second body
+  std::uint32_t pair;     ///< into Body::range, or kNoPair
+  bool touching = false;  ///< at the last instant; the pair then has a memory
 };
 
-/// Candidates between two bodies, or within one (first == second).
+/// Candidates between two bodies, or within one (first == second). Rising in (first, second): sums do not
+/// depend on how they were found.
+template <class Real>
 struct PairList {
-  std::uint32_t first, second;  ///< places in the solver's list of bodies
+  std::uint32_t first, second;      ///< places in the solver's list of bodies
+  std::uint32_t firstId, secondId;  ///< of the bodies
+  ContactLaw<Real> law;
   std::vector<PairEntry> entries;
+  std::vector<ContactMemory<Real>> memory;  ///< beside `entries`; zero where they do not touch
+  double elastic = 0;                       ///< energy of the contacts at the last instant [J]
 };
 
 /// Per body: the grid over its elements at the last listing.
@@ -36,24 +43,28 @@ template <class Real>
 class PairLists {
  public:
   /// Lists anew. `skin` is added to the contact distance; the lists hold until an element moved half of it
-  /// [m].
+  /// [m]. Pairs that touched keep their memory; lists of bodies that sleep stay as they are.
   void build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin);
   /// A spring broke: its pair may touch from now on.
   void addBroken(std::uint32_t body, const PairEntry& entry);
+  /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.
+  void removeBody(std::uint32_t place);
 
-  std::span<PairList> lists() { return m_lists; }
+  std::span<PairList<Real>> lists() { return m_lists; }
+  std::span<const PairList<Real>> lists() const { return m_lists; }
   const ElementGrid<Real>& grid(std::size_t body) const { return m_grids[body]; }
   double skin() const { return m_skin; }
 
  private:
-  void listWithin(const Body<Real>& body, std::uint32_t place, PairList& list);
-  void listBetween(const Body<Real>& a, const Body<Real>& b, const ElementGrid<Real>& gridA,
-                   const ElementGrid<Real>& gridB, PairList& list);
+  void grid(const Body<Real>& body, ElementGrid<Real>& out) const;
+  PairList<Real> take(const Body<Real>& a, const Body<Real>& b, std::uint32_t placeA, std::uint32_t placeB);
+  void listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list);
+  void listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list);
 
   double m_skin = 0;
   std::vector<ElementGrid<Real>> m_grids;
-  std::vector<PairList> m_lists;  // m_lists[place] is within body `place`; those between bodies stand behind
-  std::vector<PairList> m_spare;  // lists whose memory is kept for the next build
+  std::vector<PairList<Real>> m_lists;  // m_lists[place] is within body `place`; those between bodies behind
+  std::vector<PairList<Real>> m_old;    // of the last build
 };
 
 extern template class PairLists<float>;

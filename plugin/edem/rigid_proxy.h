@@ -11,6 +11,9 @@ namespace rubble::edem {
 
 struct RigidProxy {
   // Given by the host before a tick.
+  /// Names the body from tick to tick, for what its contacts remember. Not 0; never used again for another.
+  std::uint64_t key = 0;
+  bool kinematic = false;  ///< moved by the application: presses what an anchor carries, too
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the centre of mass [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m/s]
@@ -30,6 +33,7 @@ struct RigidProxy {
   std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
 
   bool isDynamic() const { return inverseMass > 0; }
+  bool isStatic() const { return !isDynamic() && !kinematic; }
   Eigen::AlignedBox3d bounds() const;  ///< of all parts, in the world
   double reach() const;  ///< furthest point of its parts from the centre of mass [m]; planes count 0
 };

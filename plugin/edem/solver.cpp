@@ -12,7 +12,7 @@
 #include "edem/pair_lists.h"
 #include "edem/prestress.h"
 #include "edem/rigid_contacts.h"
-#include "edem/stable_step.h"
+#include "edem/step_length.h"
 #include "rubble/error.h"
 #include "rubble/limits.h"
 
@@ -23,8 +23,6 @@ namespace {
 constexpr double kSkinRadii = 0.5;
 // An element may not pass more than this share of its radius in a substep, or thin things are missed.
 constexpr double kTravelShare = 0.25;
-// Pairs nearer than this many contact distances count as touching when the substep is chosen.
-constexpr double kNearContact = 1.1;
 
 template <class Real>
 class SolverOf final : public Solver {
@@ -58,10 +56,10 @@ class SolverOf final : public Solver {
 
   void removeBody(std::uint32_t id) override {
     const std::size_t place = placeOf(id);
-    bookLeaving(*m_bodies[place]);
+    bookLeaving(*m_bodies[place], std::uint32_t(place));
     m_bodies.erase(m_bodies.begin() + std::ptrdiff_t(place));
     m_prestressed.erase(m_prestressed.begin() + std::ptrdiff_t(place));
-    m_lists = {};  // they name bodies by place
+    m_lists.removeBody(std::uint32_t(place));
     m_listsStale = true;
   }
 
@@ -162,11 +160,6 @@ class SolverOf final : public Solver {
   }
 
  private:
-  struct Touching {
-    std::uint32_t first, second;  // bodies by place
-    PairEntry entry;
-  };
-
   std::size_t placeOf(std::uint32_t id) const {
     for (std::size_t b = 0; b < m_bodies.size(); ++b)
       if (m_bodies[b]->id == id) return b;
@@ -179,11 +172,12 @@ class SolverOf final : public Solver {
     springRates(body, std::span(rates));
     RateBound bound = springBound(body, std::span<const ElementRates>(rates));
     // Any element may press another, or a rigid body, beside its springs.
+    const ContactLaw<double> law = contactLaw(body.contact, body.contact);
     for (std::size_t i = 0; i < body.elementCount(); ++i) {
       ElementRates contact = rates[i];
-      contact.stiffness += body.contactStiffness / body.mass[i];
-      contact.damping +=
-          dashpot(body.material.contactDamping, body.contactStiffness, body.mass[i]) / body.mass[i];
+      const ElementRates one = contactRates(law, 1 / body.mass[i], 1 / body.inertia[i], double(body.radius));
+      contact.stiffness += one.stiffness;
+      contact.damping += one.damping;
       bound.add(contact, {});
     }
     return bound;
@@ -197,24 +191,20 @@ class SolverOf final : public Solver {
     return fastest;
   }
 
-  // Elastic energy of a body as it stands: springs, and the contacts among its elements that are listed [J].
+  // Elastic energy of a body's springs as they stand [J].
   double elasticOf(const Body<Real>& body) {
     Books probe;
     Body<Real> copy = body;
     beginSubstep(copy);
-    double elastic = accumulateSprings(copy, 0, false, probe);
-    for (const PairList& l : m_lists.lists())
-      if (l.first == l.second && m_bodies[l.first].get() == &body)
-        elastic += accumulateContacts(l, copy, copy);
-    return elastic;
+    return accumulateSprings(copy, 0, false, probe);
   }
 
   void bookNew(const Body<Real>& body);
-  void bookLeaving(const Body<Real>& body);
+  void bookLeaving(const Body<Real>& body, std::uint32_t place);
   void list();
-  void gatherRates(double step);
-  void gatherTouching();
-  int chooseSubsteps(double dt);
+  bool refreshLists();
+  bool contactsBegan() const;
+  double longestStep(double dt);
   void substep(double kick, double step, const Eigen::Vector3d& gravity);
   void closeTick(double dt);
 
@@ -226,9 +216,8 @@ class SolverOf final : public Solver {
   PairLists<Real> m_lists;
   RigidContacts<Real> m_rigid;
   bool m_listsStale = true;
-  double m_lastStep = 0;                           // of the positions; 0 before the first
-  std::vector<std::vector<ElementRates>> m_rates;  // by body
-  std::vector<Touching> m_touching;
+  double m_lastStep = 0;  // of the positions; 0 before the first
+  StepLength<Real> m_stepLength;
   TickReport m_report;
   Books m_books;
   std::string m_failure;
@@ -242,19 +231,29 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   m_report.crushed.clear();
   m_report.substeps = 0;
   m_report.listing = 0;
+  m_report.warning.clear();
   if (!std::isfinite(dt)) m_failure = "the time step is not finite";
   if (!m_failure.empty() || !(dt > 0)) return;
   m_rigid.beginTick(proxies);
-  for (auto& body : m_bodies)
-    if (!body->asleep) beginSubstep(*body);
-  list();
-  const int substeps = chooseSubsteps(dt);
-  const double step = dt / substeps;
-  for (int s = 0; s < substeps && m_failure.empty(); ++s) {
+  m_stepLength.beginTick(m_bodies);
+  m_listsStale = true;
+  double left = dt, step = dt;
+  int substeps = 0;
+  while (left > 0 && m_failure.empty()) {
+    for (auto& body : m_bodies)
+      if (!body->asleep) beginSubstep(*body);
+    if (refreshLists() || contactsBegan()) {
+      // What is near has changed: the rest of the tick in equal steps that are short enough for it.
+      const double longest = substeps == 0 ? longestStep(dt) : std::min(step, longestStep(dt));
+      if (!m_failure.empty()) break;
+      step = left / std::ceil(left / longest * (1 - 1e-9));
+    }
     // Between steps of two lengths the half steps are their mean apart.
     const double kick = m_lastStep > 0 ? 0.5 * (m_lastStep + step) : step;
     substep(kick, step, gravity);
     m_lastStep = step;
+    ++substeps;
+    left = left - step > 0.5 * step ? left - step : 0;
   }
   m_report.substeps = substeps;
   m_report.substep = step;
@@ -264,21 +263,17 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
 template <class Real>
 void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gravity) {
   m_books.closeStep();
-  for (auto& body : m_bodies)
-    if (!body->asleep) beginSubstep(*body);
-  if (m_listsStale) {
-    list();
-  } else if (m_rigid.expired(m_lists.skin())) {
-    m_rigid.build(m_bodies, m_lists);
-  }
-
   m_books.elastic = 0;
   for (auto& body : m_bodies)
     m_books.elastic +=
         body->asleep ? body->sleepingElastic : accumulateSprings(*body, kick, m_def.breaking, m_books);
-  for (PairList& l : m_lists.lists())
-    m_books.elastic += accumulateContacts(l, *m_bodies[l.first], *m_bodies[l.second]);
-  m_rigid.accumulate(m_bodies, kick, m_books);
+  for (PairList<Real>& l : m_lists.lists()) {
+    Body<Real>&a = *m_bodies[l.first], &b = *m_bodies[l.second];
+    if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {m_lastStep, step}, m_books);
+    m_books.elastic += l.elastic;
+  }
+  m_rigid.accumulate(m_bodies, {m_lastStep, step}, kick, m_books);
+  m_books.elastic += m_rigid.elastic();
 
   const std::size_t brokenBegin = m_report.broken.size();
   bool anyCrushed = false;
@@ -287,9 +282,11 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
     markCrushed(*body);
     anyCrushed = anyCrushed || !body->crushing.empty();
   }
-  if (anyCrushed)
-    for (PairList& l : m_lists.lists())
-      releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], kick, m_books);
+  if (anyCrushed) {
+    for (PairList<Real>& l : m_lists.lists())
+      releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], step, kick, m_books);
+    m_rigid.release(m_bodies, step, kick, m_books);
+  }
   for (std::uint32_t b = 0; b < m_bodies.size(); ++b)
     if (!m_bodies[b]->asleep) applyBreaks(*m_bodies[b], b, kick, m_lists, m_books, m_report);
 
@@ -307,8 +304,7 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
       m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
     m_listsStale = m_listsStale || !(moved2 <= Real(0.25 * m_lists.skin() * m_lists.skin()));
   }
-  m_rigid.bookSecondHalf(m_bodies, kick, m_books);
-  m_rigid.integrate(kick, step);
+  m_rigid.integrate(kick, step, m_books);
   for (auto& body : m_bodies)
     if (!body->crushing.empty()) removeCrushed(*body, brokenBegin, m_books, m_report);
 }
@@ -323,62 +319,57 @@ void SolverOf<Real>::list() {
   m_listsStale = false;
 }
 
-// Rates of each element in its springs and at the rigid bodies near it.
+// Lists anew what is out of date; true if anything was.
 template <class Real>
-void SolverOf<Real>::gatherRates(double step) {
-  m_rates.resize(m_bodies.size());
-  for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
-    const Body<Real>& body = *m_bodies[b];
-    m_rates[b].assign(body.elementCount(), {});
-    if (body.asleep) continue;
-    springRates(body, std::span(m_rates[b]));
-    m_rigid.addRates(body, b, step, m_rates[b]);
+bool SolverOf<Real>::refreshLists() {
+  if (m_listsStale) {
+    list();
+  } else if (m_rigid.expired(m_lists.skin())) {
+    m_rigid.build(m_bodies, m_lists);
+  } else {
+    return false;
   }
+  return true;
 }
 
-// Pairs that touch or nearly do, and their contacts' part in the rates of both elements.
+// More contacts began at an element than the step was chosen for.
 template <class Real>
-void SolverOf<Real>::gatherTouching() {
-  m_touching.clear();
-  const auto add = [this](std::uint32_t place, std::uint32_t i) {
-    const Body<Real>& body = *m_bodies[place];
-    m_rates[place][i].stiffness += body.contactStiffness / body.mass[i];
-    m_rates[place][i].damping += double(body.contact.damping) / body.mass[i];
-  };
-  for (const PairList& l : m_lists.lists()) {
-    const Body<Real>&a = *m_bodies[l.first], &b = *m_bodies[l.second];
-    const Vec3<Real> offset = (b.origin - a.origin).template cast<Real>();
-    const Real near = Real(kNearContact) * (a.radius + b.radius);
-    for (const PairEntry& e : l.entries) {
-      if (!a.alive[e.first] || !b.alive[e.second]) continue;
-      if ((b.position[e.second] - a.position[e.first] + offset).squaredNorm() > near * near) continue;
-      m_touching.push_back({l.first, l.second, e});
-      add(l.first, e.first);
-      add(l.second, e.second);
-    }
-  }
+bool SolverOf<Real>::contactsBegan() const {
+  return std::any_of(m_bodies.begin(), m_bodies.end(), [](const auto& body) {
+    const auto& begun = body->touchesBegun;
+    return !body->asleep && std::any_of(begun.begin(), begun.end(), [](std::uint16_t n) { return n > 1; });
+  });
 }
 
+// Longest safe step of a tick of `dt` as things are now [s]; a tick that would need too many fails.
 template <class Real>
-int SolverOf<Real>::chooseSubsteps(double dt) {
-  gatherRates(m_lastStep > 0 ? m_lastStep : dt);
-  gatherTouching();
-  RateBound bound;
+double SolverOf<Real>::longestStep(double dt) {
+  m_stepLength.bound(m_bodies, m_lists, m_rigid);
+  const double stable = std::min(m_def.substepSafety * m_stepLength.stable(), m_stepLength.resolving());
   double speed = m_rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
-  for (std::uint32_t b = 0; b < m_bodies.size(); ++b) {
-    const Body<Real>& body = *m_bodies[b];
-    if (body.asleep) continue;
-    bound.add(springBound(body, std::span<const ElementRates>(m_rates[b])));
-    for (const ElementRates& r : m_rates[b]) bound.add(r, {});
-    speed = std::max(speed, speedOf(body));
-    radius = std::min(radius, double(body.radius));
+  for (const auto& body : m_bodies) {
+    if (body->asleep) continue;
+    speed = std::max(speed, speedOf(*body));
+    radius = std::min(radius, double(body->radius));
   }
-  for (const Touching& t : m_touching)
-    bound.add(m_rates[t.first][t.entry.first], m_rates[t.second][t.entry.second]);
-  double step = std::min(dt, m_def.substepSafety * bound.stableStep());
-  if (speed > 0 && std::isfinite(radius)) step = std::min(step, kTravelShare * radius / speed);
-  const double limit = std::max(1.0, std::ceil(dt * 60 * m_def.maxSubstepsPerFrame));
-  return int(std::clamp(std::ceil(dt / step * (1 - 1e-9)), 1.0, limit));
+  const bool travels = speed > 0 && std::isfinite(radius);
+  const double travel = travels ? kTravelShare * radius / speed : std::numeric_limits<double>::infinity();
+  const double shortest = 1.0 / 60 / m_def.maxSubstepsPerFrame * (1 - 1e-9);
+  char text[200];
+  if (stable < shortest) {
+    std::snprintf(text, sizeof text,
+                  "body %u: its contacts need a substep of %.3g s; max_substeps_per_frame %d allows %.3g s",
+                  m_bodies[m_stepLength.stiffest()]->id, stable, m_def.maxSubstepsPerFrame, shortest);
+    m_failure = text;
+  } else if (travel < shortest) {
+    std::snprintf(text, sizeof text,
+                  "something moves at %.3g m/s, more than max_substeps_per_frame %d can follow: contacts may "
+                  "be missed",
+                  speed, m_def.maxSubstepsPerFrame);
+    m_report.warning = text;
+    return std::min({dt, stable, shortest});
+  }
+  return std::min({dt, stable, travel});
 }
 
 template <class Real>
@@ -429,13 +420,15 @@ void SolverOf<Real>::bookNew(const Body<Real>& body) {
 }
 
 template <class Real>
-void SolverOf<Real>::bookLeaving(const Body<Real>& body) {
+void SolverOf<Real>::bookLeaving(const Body<Real>& body, std::uint32_t place) {
   Books probe = m_books;
   probe.mass = probe.kinetic = 0;
   probe.linear = probe.angular = Eigen::Vector3d::Zero();
   Body<Real> copy = body;
   beginSubstep(copy);
-  const double elastic = accumulateSprings(copy, 0, false, probe);
+  double elastic = accumulateSprings(copy, 0, false, probe);
+  for (const PairList<Real>& l : m_lists.lists())
+    if (l.first == place || l.second == place) elastic += l.elastic;
   integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<Real>>(copy.position), probe);
   m_books.leftMass += probe.mass;
   m_books.leftKinetic += probe.kinetic;

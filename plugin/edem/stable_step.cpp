@@ -27,6 +27,14 @@ void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
   }
 }
 
+ElementRates contactRates(const ContactLaw<double>& law, double inverseMass, double inverseInertia,
+                          double radius) {
+  const double sliding = inverseMass + radius * radius * inverseInertia;
+  return {std::max(law.stiffness * inverseMass, law.tangential * sliding + law.rolling * inverseInertia),
+          std::max(law.damping * inverseMass,
+                   law.tangentialDamping * sliding + law.rollingDamping * inverseInertia)};
+}
+
 void RateBound::add(const ElementRates& a, const ElementRates& b) {
   assert(a.stiffness >= 0 && a.damping >= 0 && b.stiffness >= 0 && b.damping >= 0);
   frequency2 = std::max(frequency2, a.stiffness + b.stiffness);

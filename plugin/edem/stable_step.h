@@ -30,6 +30,11 @@ struct RateBound {
   double stableStep() const;
 };
 
+/// Rates of one side of a contact by its law: of the normal spring, or of sliding and rolling together, which
+/// are at right angles to it.
+ElementRates contactRates(const ContactLaw<double>& law, double inverseMass, double inverseInertia,
+                          double radius);
+
 template <class Real>
 RateBound springBound(const Body<Real>& body, std::span<const ElementRates> rates);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/crushed_element.h"
@@ -22,8 +23,9 @@ struct BrokenSpring {
 /// What one tick did, besides moving things.
 struct TickReport {
   int substeps = 0;
-  double substep = 0;  ///< h [s]
-  double listing = 0;  ///< wall time spent on candidate lists [ms]
+  double substep = 0;   ///< h [s]
+  double listing = 0;   ///< wall time spent on candidate lists [ms]
+  std::string warning;  ///< what the tick could not do as it should; empty: nothing
   std::vector<BrokenSpring> broken;
   /// Without maxRadius, which is the law of another layer.
   std::vector<base::CrushedElement> crushed;
@@ -38,9 +40,9 @@ void beginSubstep(Body<Real>& body);
 template <class Real>
 double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books);
 
-/// Element contacts of one list (paper 3.1.2), of one body or two. Returns their elastic energy [J].
+/// Element contacts of one list (paper 3.1.2), of one body or two; their energy goes into list.elastic.
 template <class Real>
-double accumulateContacts(const PairList& list, Body<Real>& a, Body<Real>& b);
+void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps, Books& books);
 
 /// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to
 /// the overloaded ones.
@@ -49,7 +51,8 @@ void markCrushed(Body<Real>& body);
 
 /// Takes the contacts of leaving elements out of this substep, as applyBreaks does with springs.
 template <class Real>
-void releaseContacts(const PairList& list, Body<Real>& a, Body<Real>& b, double kick, Books& books);
+void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
+                     Books& books);
 
 /// Takes the overloaded springs out: their force of this substep, their place in the graph, their energy into
 /// books.fracture.

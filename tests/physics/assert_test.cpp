@@ -60,15 +60,15 @@ TEST_F(AssertDeathTest, MotionRefusesPlacesOfAnotherBody) {
 }
 
 TEST_F(AssertDeathTest, AContactRefusesANormalThatIsNotUnit) {
-  const edem::ContactLaw<double> law{1e6, 10, 0.6};
-  const Eigen::Vector3d normal(0, 2, 0), approach(0, -1, 0);
-  EXPECT_DEATH(edem::contactForce(law, 1e-3, normal, approach), "squaredNorm");
+  const edem::ContactMotion<double> motion{1e-3, 1, {0, 2, 0}, {0, -1, 0}, {0, 0, 0}};
+  edem::ContactMemory<double> memory;
+  EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "squaredNorm");
 }
 
 TEST_F(AssertDeathTest, AContactRefusesAGap) {
-  const edem::ContactLaw<double> law{1e6, 10, 0.6};
-  const Eigen::Vector3d normal(0, 1, 0), approach(0, -1, 0);
-  EXPECT_DEATH(edem::contactForce(law, -1e-3, normal, approach), "overlap > 0");
+  const edem::ContactMotion<double> motion{-1e-3, 1, {0, 1, 0}, {0, -1, 0}, {0, 0, 0}};
+  edem::ContactMemory<double> memory;
+  EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "overlap > 0");
 }
 
 TEST_F(AssertDeathTest, TheBoundRefusesNegativeRates) {

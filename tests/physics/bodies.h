@@ -76,7 +76,10 @@ class OneBody {
     edem::beginSubstep(b);
     m_lists.build(m_bodies, 0.5 * double(b.radius));
     m_books.elastic = edem::accumulateSprings(b, step, breaking, m_books);
-    for (edem::PairList& l : m_lists.lists()) m_books.elastic += edem::accumulateContacts(l, b, b);
+    for (edem::PairList<Real>& l : m_lists.lists()) {
+      edem::accumulateContacts(l, b, b, {step, step}, m_books);
+      m_books.elastic += l.elastic;
+    }
     edem::applyBreaks(b, 0, step, m_lists, m_books, m_report);
     m_books.mass = m_books.kinetic = 0;
     m_books.linear.setZero();

@@ -21,7 +21,8 @@ struct Material {
   double springDamping = 0.03;
   double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
   double contactDamping = 0.3;    ///< damping ratio of the contact dashpots, normal and tangential, 0 to 1
-  double friction = 0.6;          ///< Coulomb mu of contacts; 0 is the paper
+  double friction = 0.6;          ///< Coulomb mu of contacts
+  double rollingFriction = 0.5;   ///< mu_r of rolling and twisting, in radii of curvature, 0 to 1
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
   /// Share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen.
@@ -58,7 +59,9 @@ struct Model {
   /// Spring and contact act together on a joined pair, as printed in the paper.
   bool contactBesideSpring = false;
   bool coulombFriction = true;  ///< friction limited by mu |F_n|; off in the paper
-  bool conserveDebris = true;   ///< debris keep momentum, spin and energy of their element
+  /// Contacts remember what slid and rolled: things stand on slopes and come to rest; off in the paper.
+  bool contactMemory = true;
+  bool conserveDebris = true;  ///< debris keep momentum, spin and energy of their element
   DebrisSizes debrisSizes = DebrisSizes::Mass;
   CellJoining cellJoining = CellJoining::Transitive;
 

@@ -1,0 +1,152 @@
+// The contacts of elements with elements (paper 3.1.2).
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "edem/stages.h"
+
+namespace rubble::edem {
+namespace {
+
+// One touching pair. Loads on the second element.
+template <class Real>
+struct PairTouch {
+  bool touches = false;
+  ContactLoad<Real> load;
+  Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
+  Real power = 0;                  // of the elastic loads [W]
+  Real lost = 0;                   // by a pair that has parted [J]
+};
+
+// Contact distance D of a pair, law 2: own to joined pairs and to pairs overlapping at rest, and growing with
+// their distance. Pairs that are free of each other touch at the sum of their radii; those first seen deep in
+// each other where they are.
+template <class Real>
+Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance, Real speed,
+                     Real moved, ContactMemory<Real>& memory) {
+  const Real free = a.radius + b.radius;
+  if (entry.pair == kNoPair) return memory.range = contactRange(memory.range, distance, free, speed, moved);
+  Real& range = a.range[entry.pair];
+  return range = std::fmin(std::fmax(range, distance), free);
+}
+
+template <class Real>
+PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<Real>& offset, Body<Real>& a,
+                          Body<Real>& b, const Steps& steps, ContactMemory<Real>& memory) {
+  PairTouch<Real> touch;
+  const Real moved = Real(steps.moved), next = Real(steps.next);
+  const PairEntry& entry = list.entries[k];
+  const std::uint32_t i = entry.first, j = entry.second;
+  assert(i < a.elementCount() && j < b.elementCount());
+  if (!a.alive[i] || !b.alive[j]) return touch;
+  const Vec3<Real> between = (b.position[j] - a.position[i]) + offset;
+  const Real distance2 = between.squaredNorm();
+  const Real free = a.radius + b.radius;
+  if (distance2 >= free * free) {
+    if (entry.pair != kNoPair) a.range[entry.pair] = free;
+    memory.range = 0;
+    if (!entry.touching) return touch;
+  }
+  const Real distance = std::sqrt(distance2);
+  touch.armFirst = between * (a.radius / free);
+  touch.armSecond = -between * (b.radius / free);
+  ContactMotion<Real> motion;
+  motion.approach =
+      b.velocity[j] + b.spin[j].cross(touch.armSecond) - a.velocity[i] - a.spin[i].cross(touch.armFirst);
+  motion.spin = b.spin[j] - a.spin[i];
+  if (distance < free) {
+    const Real speed = motion.approach.norm();
+    motion.overlap = contactDistance(entry, a, b, distance, speed, moved, memory) - distance;
+  }
+  if (!(motion.overlap > Real(0)) || !(distance > Real(0))) {
+    if (entry.touching) touch.lost = lostAtParting(list.law, motion.approach, motion.spin, moved, memory);
+    return touch;
+  }
+  touch.touches = true;
+  motion.normal = between / distance;
+  const Real speed = -motion.approach.dot(motion.normal);
+  if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
+  motion.share = touchShare(motion.overlap, speed, next, memory.onset);
+  touch.load = contactLoad(list.law, motion, moved, memory);
+  touch.power = touch.load.elastic.dot(motion.approach) + touch.load.elasticTorque.dot(motion.spin);
+  return touch;
+}
+
+template <class Real>
+void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body<Real>& b, std::uint32_t j,
+              Real sign) {
+  const Vec3<Real> damping = sign * touch.load.damping;
+  const Vec3<Real> all = sign * touch.load.elastic + damping;
+  const Vec3<Real> dampingTorque = sign * touch.load.dampingTorque;
+  const Vec3<Real> torque = sign * touch.load.elasticTorque + dampingTorque;
+  a.force[i] -= all;
+  b.force[j] += all;
+  a.dampingForce[i] -= damping;
+  b.dampingForce[j] += damping;
+  a.torque[i] -= touch.armFirst.cross(all) + torque;
+  b.torque[j] += touch.armSecond.cross(all) + torque;
+  a.dampingTorque[i] -= touch.armFirst.cross(damping) + dampingTorque;
+  b.dampingTorque[j] += touch.armSecond.cross(damping) + dampingTorque;
+}
+
+template <class Real>
+Vec3<Real> offsetBetween(const Body<Real>& a, const Body<Real>& b) {
+  return (b.origin - a.origin).template cast<Real>();
+}
+
+}  // namespace
+
+template <class Real>
+void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
+                        Books& books) {
+  assert(list.memory.size() == list.entries.size() && steps.moved >= 0 && steps.next >= 0);
+  const Vec3<Real> offset = offsetBetween(a, b);
+  list.elastic = 0;
+  double slipped = 0;
+  for (std::size_t k = 0; k < list.entries.size(); ++k) {
+    PairEntry& entry = list.entries[k];
+    ContactMemory<Real>& memory = list.memory[k];
+    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, steps, memory);
+    if (!touch.touches) {
+      if (entry.touching) {
+        slipped += double(touch.lost);
+        part(memory);
+        entry.touching = false;
+      }
+      continue;
+    }
+    if (!std::exchange(entry.touching, true)) {
+      ++a.touchesBegun[entry.first];
+      ++b.touchesBegun[entry.second];
+    }
+    list.elastic += double(touch.load.energy);
+    slipped += double(touch.load.slipped);
+    addTouch(touch, a, entry.first, b, entry.second, Real(1));
+  }
+  books.dissipated.add(-slipped, 0);
+}
+
+template <class Real>
+void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
+                     Books& books) {
+  const Vec3<Real> offset = offsetBetween(a, b);
+  for (std::size_t k = 0; k < list.entries.size(); ++k) {
+    PairEntry& entry = list.entries[k];
+    if (!entry.touching || (!a.leaving[entry.first] && !b.leaving[entry.second])) continue;
+    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, Steps{0, step}, list.memory[k]);
+    if (!touch.touches) continue;
+    addTouch(touch, a, entry.first, b, entry.second, Real(-1));
+    list.elastic -= double(touch.load.energy);
+    books.elastic -= double(touch.load.energy);
+    books.fracture += double(touch.load.energy) + 0.5 * kick * double(touch.power);
+    list.memory[k] = {};
+    entry.touching = false;
+  }
+}
+
+template void accumulateContacts(PairList<float>&, Body<float>&, Body<float>&, const Steps&, Books&);
+template void accumulateContacts(PairList<double>&, Body<double>&, Body<double>&, const Steps&, Books&);
+template void releaseContacts(PairList<float>&, Body<float>&, Body<float>&, double, double, Books&);
+template void releaseContacts(PairList<double>&, Body<double>&, Body<double>&, double, double, Books&);
+
+}  // namespace rubble::edem

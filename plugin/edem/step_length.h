@@ -1,0 +1,49 @@
+// How long a substep may be, so that every spring, every contact that is there and every contact that can
+// begin before the next listing is stable in it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "edem/body.h"
+#include "edem/pair_lists.h"
+#include "edem/rigid_contacts.h"
+#include "edem/stable_step.h"
+
+namespace rubble::edem {
+
+template <class Real>
+class StepLength {
+ public:
+  /// Takes the rates of the springs. In a tick they only break, so that these stay a bound.
+  void beginTick(std::span<const std::unique_ptr<Body<Real>>> bodies);
+
+  /// The bound over springs, over contacts that are there, and over one more at each element that has
+  /// something near; for a light rigid body, over all that is near it. Once a second contact has begun at an
+  /// element (Body::touchesBegun), the bound must be made anew. Tells `rigid` how stiff light bodies may be.
+  void bound(std::span<const std::unique_ptr<Body<Real>>> bodies, const PairLists<Real>& lists,
+             RigidContacts<Real>& rigid);
+
+  /// Largest stable step under the last bound [s], and the body that sets it (place).
+  double stable() const { return m_bound.stableStep(); }
+  /// Largest step that follows a single contact through its blow well enough for its energy [s].
+  double resolving() const;
+  std::uint32_t stiffest() const { return m_stiffest; }
+
+ private:
+  void addContact(std::uint32_t place, std::uint32_t element, const ElementRates& one, bool touching);
+  void add(std::uint32_t place, const ElementRates& a, const ElementRates& b);
+
+  std::vector<std::vector<ElementRates>> m_springs, m_rates;  // by body
+  std::vector<std::vector<ElementRates>> m_next;              // of the contact that may begin at each element
+  RateBound m_bound;
+  double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
+  std::uint32_t m_stiffest = 0;
+};
+
+extern template class StepLength<float>;
+extern template class StepLength<double>;
+
+}  // namespace rubble::edem

@@ -1,0 +1,253 @@
+// Contacts of loose and of light things: they gain no energy, come to rest, and do not let anything through.
+#include "physics/bodies.h"
+
+namespace rubble::test {
+namespace {
+
+constexpr double kCube = 0.2;  // edge of a cube, twice the radius of its element [m]
+constexpr double kCubeMass = 2400 * kCube * kCube * kCube;
+
+edem::RigidProxy fixed(const edem::Collider& part, const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+  edem::RigidProxy proxy;
+  proxy.position = at;
+  proxy.friction = 1;
+  proxy.parts = {part};
+  return proxy;
+}
+
+edem::RigidProxy plane(double degrees = 0) {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Plane;
+  const double a = degrees * 3.14159265358979 / 180;
+  part.size = {std::sin(a), std::cos(a), 0};
+  return fixed(part);
+}
+
+edem::RigidProxy box(const Eigen::Vector3d& half, const Eigen::Vector3d& at) {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Box;
+  part.size = half;
+  return fixed(part, at);
+}
+
+template <class Real>
+class RestingContact : public ::testing::Test {
+ protected:
+  void run(double seconds, double dt, std::vector<edem::RigidProxy>& proxies) {
+    for (int t = 0; t < int(seconds / dt + 0.5); ++t) {
+      solver->tick(dt, kGravity, proxies);
+      ASSERT_EQ(solver->failure(), "");
+      fastest = std::max(fastest, solver->maxSpeed(0));
+    }
+  }
+  std::unique_ptr<edem::Solver> solver = makeSolver<Real>(false);
+  double fastest = 0;
+};
+TYPED_TEST_SUITE(RestingContact, Scalars);
+
+TYPED_TEST(RestingContact, LooseElementIsNoFasterThanItFell) {
+  for (const double rate : {60.0, 240.0}) {
+    for (const double damping : {0.0, 0.3, 1.0}) {
+      this->solver = makeSolver<TypeParam>(false);
+      this->fastest = 0;
+      edem::BodyDef def = block({1, 1, 1});
+      def.transform.translation() = Eigen::Vector3d(0, 0.3, 0);
+      def.material.contactDamping = damping;
+      this->solver->addBody(def, kNoGravity);
+      std::vector<edem::RigidProxy> proxies = {plane()};
+      this->run(2, 1 / rate, proxies);
+      // Symplectic Euler falls by half a step's speed further.
+      EXPECT_LT(this->fastest, std::sqrt(2 * 9.81 * 0.3) + 9.81 / rate) << rate << " Hz, " << damping;
+    }
+  }
+}
+
+TYPED_TEST(RestingContact, LooseElementsInAHeapGainNothing) {
+  // A block without strength, its elements 1 mm apart from touching: its springs are broken by hand.
+  edem::BodyDef def = block({3, 3, 3});
+  def.transform.translation() = Eigen::Vector3d(0, 0.3, 0);
+  def.material.tensileStrength = def.material.compressiveStrength = 0;
+  def.material.contactDamping = 0.3;
+  def.material.friction = 0.6;
+  this->solver = makeSolver<TypeParam>(true);
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane()};
+  this->run(0.4, kFrame, proxies);
+  EXPECT_LT(this->fastest, std::sqrt(2 * 9.81 * 0.9));  // from the top of the block to the ground
+}
+
+TYPED_TEST(RestingContact, BlockDoesNotCreepDownASlopeItCanStandOn) {
+  for (const double degrees : {12.0, 25.0}) {
+    this->solver = makeSolver<TypeParam>(false);
+    edem::BodyDef def = block({2, 1, 2});
+    def.transform = Eigen::AngleAxisd(-degrees * 3.14159265358979 / 180, Eigen::Vector3d::UnitZ());
+    def.material.friction = 0.6;  // holds to 31 degrees
+    def.material.contactDamping = 0.3;
+    def.material.springDamping = 0.1;
+    this->solver->addBody(def, kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {plane(degrees)};
+    this->run(1, kFrame, proxies);
+    const Eigen::Vector3d before = this->solver->position(0, 0);
+    this->run(4, kFrame, proxies);
+    EXPECT_LT((this->solver->position(0, 0) - before).norm(), 1e-5) << degrees;
+  }
+}
+
+TYPED_TEST(RestingContact, BlockSlidesWhereFrictionDoesNotHold) {
+  edem::BodyDef def = block({2, 1, 2});
+  def.transform = Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitZ());
+  def.material.friction = 0.3;
+  def.material.contactDamping = 0.3;
+  def.material.springDamping = 0.1;
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane(0.5 * 180 / 3.14159265358979)};
+  const Eigen::Vector3d before = this->solver->position(0, 0);
+  this->run(1, kFrame, proxies);
+  const double way = 0.5 * 9.81 * (std::sin(0.5) - 0.3 * std::cos(0.5));
+  EXPECT_NEAR((this->solver->position(0, 0) - before).norm(), way, 0.03 * way);
+}
+
+TYPED_TEST(RestingContact, RollingElementStops) {
+  edem::BodyDef def = block({1, 1, 1});
+  def.velocity = Eigen::Vector3d(1, 0, 0);
+  def.material.contactDamping = 0.3;
+  def.material.friction = 0.6;
+  def.material.rollingFriction = 0.1;
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane()};
+  this->run(4, kFrame, proxies);
+  EXPECT_LT(this->solver->maxSpeed(0), 1e-3);
+  // It slides until friction, less the resistance to rolling, has spun it up, then rolls to its end. I / m
+  // r^2 is 4 / 6, a cube's; v' = -mu g, r w' = (mu - mu_r) g / (4/6), then (1 + 4/6) v' = -mu_r g.
+  const double inertia = 4.0 / 6, g = 9.81;
+  const double spinUp = 1 / (g * (0.6 + 0.5 / inertia));  // [s]
+  const double rolling = 1 - 0.6 * g * spinUp;            // speed then [m/s]
+  const double way = 0.5 * (1 + rolling) * spinUp + rolling * rolling * (1 + inertia) / (2 * 0.1 * g);
+  EXPECT_NEAR(this->solver->position(0, 0).x() - 0.1, way, 0.01 * way);
+}
+
+TYPED_TEST(RestingContact, OneElementStaysOnASlope) {
+  // The grid's box of a single element is a point.
+  for (const double degrees : {10.0, 30.0}) {
+    this->solver = makeSolver<TypeParam>(false);
+    edem::BodyDef def = block({1, 1, 1});
+    def.transform.translation() = Eigen::Vector3d(0, 0.15, 0);
+    def.material.friction = 0.6;
+    def.material.rollingFriction = 0;
+    def.material.contactDamping = 0.3;
+    this->solver->addBody(def, kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {plane(degrees)};
+    const Eigen::Vector3d normal = proxies[0].parts[0].size;
+    for (int t = 0; t < 120; ++t) {
+      this->run(kFrame, kFrame, proxies);
+      EXPECT_GT(this->solver->position(0, 0).dot(normal), 0.095);
+    }
+    EXPECT_GT(this->solver->position(0, 0).x(), 0.2) << "it rolls";
+  }
+}
+
+TYPED_TEST(RestingContact, LightPlateOnManyElementsGainsNothing) {
+  edem::BodyDef def = block({20, 1, 20}, true, 0.0337);
+  def.material.contactDamping = 0.3;
+  for (const double mass : {0.1, 0.5, 1.0, 5.0}) {
+    this->solver = makeSolver<TypeParam>(false);
+    this->solver->addBody(def, kNoGravity);
+    edem::RigidProxy proxy = box({0.335, 0.01, 0.335}, {0.337, 0.0337 + 0.012, 0.337});
+    proxy.inverseMass = 1 / mass;
+    proxy.inverseInertia = Eigen::Vector3d(12, 6, 12) / (mass * 0.67 * 0.67);
+    std::vector<edem::RigidProxy> proxies = {proxy};
+    this->fastest = 0;
+    for (int t = 0; t < 60; ++t) {
+      proxies[0].acceleration = kGravity;
+      this->solver->tick(kFrame, kGravity, proxies);
+      this->fastest = std::max(this->fastest, proxies[0].velocity.norm());
+      EXPECT_GT(proxies[0].position.y(), 0.0337 + 0.009) << mass;
+    }
+    EXPECT_LT(this->fastest, std::sqrt(2 * 9.81 * 0.002) + 9.81 * kFrame) << mass;
+    EXPECT_LT(proxies[0].velocity.norm(), 0.01) << mass;
+  }
+}
+
+TYPED_TEST(RestingContact, SoftOnStiffGainsNothing) {
+  for (const double modulus : {1e4, 1e5}) {
+    for (const double edge : {0.02, 0.1}) {
+      this->solver = makeSolver<TypeParam>(false);
+      edem::BodyDef stone = block({3, 1, 3}, true), foam = block({2, 2, 2}, false, edge);
+      foam.material.density = 30;
+      foam.material.youngsModulus = modulus;
+      foam.transform.translation() = Eigen::Vector3d(0.3 - edge, kCube + 0.001, 0.3 - edge);
+      foam.velocity = Eigen::Vector3d(0, -1, 0);
+      this->solver->addBody(stone, kNoGravity);
+      const std::uint32_t id = this->solver->addBody(foam, kNoGravity);
+      for (int t = 0; t < 60; ++t) this->solver->tick(kFrame, kNoGravity, {});
+      const edem::Books& books = this->solver->books();
+      EXPECT_EQ(this->solver->failure(), "");
+      EXPECT_LT(books.kinetic + books.elastic, 1.01 * books.initialEnergy) << modulus << ", " << edge;
+      EXPECT_GT(this->solver->velocity(id, 0).y(), 0) << "it has bounced";
+    }
+  }
+}
+
+TYPED_TEST(RestingContact, KinematicBodyPressesWhatAnAnchorCarries) {
+  for (const bool kinematic : {false, true}) {
+    this->solver = makeSolver<TypeParam>(false);
+    this->solver->addBody(block({3, 1, 3}, true), kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {box({0.1, 0.1, 0.1}, {0.3, kCube + 0.101, 0.3})};
+    proxies[0].kinematic = kinematic;
+    proxies[0].velocity = Eigen::Vector3d(0, -0.1, 0);
+    for (int t = 0; t < 6; ++t) this->solver->tick(kFrame, kNoGravity, proxies);
+    // A static one is what the anchor ties the element to.
+    EXPECT_EQ(proxies[0].contactWeight > 0, kinematic);
+  }
+}
+
+TYPED_TEST(RestingContact, FirstSeenDeepGivesNoKick) {
+  // Half a radius deep in one box, and as near to another that it must not be mistaken for.
+  this->solver->addBody(block({1, 1, 1}), kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {box({1, 1, 1}, {0.1, -0.95, 0.1}),
+                                           box({1, 1, 1}, {1.23, 0.1, 0.1})};
+  for (int t = 0; t < 30; ++t) {
+    this->solver->tick(kFrame, kNoGravity, proxies);
+    EXPECT_LT(this->solver->maxSpeed(0), 0.01);
+  }
+}
+
+TYPED_TEST(RestingContact, StaticBodyGivesNoEnergy) {
+  edem::BodyDef def = block({2, 2, 2});
+  def.velocity = Eigen::Vector3d(1, -3, 0);
+  def.transform.translation() = Eigen::Vector3d(0, 0.05, 0);
+  def.material.friction = 0.6;
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane()};
+  for (int t = 0; t < 30; ++t) this->solver->tick(kFrame, kNoGravity, proxies);
+  const edem::Books& b = this->solver->books();
+  EXPECT_EQ(b.bullet.work.done(), 0);
+  EXPECT_GT(b.bullet.linear.norm(), 100) << "it has met the plane";
+  // So the balance is of the elements and their contacts alone, and can fail.
+  EXPECT_NEAR(b.kinetic + b.elastic - b.dissipated.done(), b.initialEnergy, 2e-3 * b.initialEnergy);
+}
+
+TYPED_TEST(RestingContact, WhatAContactRemembersSurvivesSleep) {
+  edem::BodyDef def = block({2, 1, 2});
+  def.transform = Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitZ());
+  def.material.friction = 0.6;
+  def.material.contactDamping = 0.3;
+  def.material.springDamping = 0.1;
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane(0.3 * 180 / 3.14159265358979)};
+  this->run(2, kFrame, proxies);
+  const Eigen::Vector3d before = this->solver->position(0, 0);
+  for (int nap = 0; nap < 20; ++nap) {
+    this->solver->setAsleep(0, true);
+    this->run(kFrame, kFrame, proxies);
+    this->solver->setAsleep(0, false);
+    this->run(kFrame, kFrame, proxies);
+  }
+  // Without its memory it would sag by the springs' length each time: m g sin / (n k_t), four elements a
+  // side.
+  const double sag = kCubeMass * 9.81 * std::sin(0.3) / (0.2 * 0.5 * 30e6 * kCube);
+  EXPECT_LT((this->solver->position(0, 0) - before).norm(), sag);
+}
+
+}  // namespace
+}  // namespace rubble::test
