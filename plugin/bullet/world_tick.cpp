@@ -1,6 +1,7 @@
 #include "bullet/world_tick.h"
 
 #include <LinearMath/btQuickprof.h>
+#include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,8 @@ constexpr double kQuietSpeed = 0.01;
 // sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
 // is damped at this rate [1/s].
 constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
-// The position fix-up is blended in between these shares of an element's radius: below, stacks stay calm;
-// above, fast bodies end where the substeps brought them (plugin/README.md).
-constexpr double kFixBegin = 0.05, kFixFull = 0.10;
+// A body is held by Bullet when that bears more than this share of its weight.
+constexpr double kHeldShare = 0.05;
 // Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
 // keeps jumping from tick to tick.
 constexpr btScalar kTrust = btScalar(0.25);
@@ -182,11 +182,17 @@ void Destruction::Impl::gatherProxies() {
         t.acceleration = toBullet(proxy.acceleration);
         t.angularAcceleration = toBullet(proxy.angularAcceleration);
         // Without it a crate that stands on the ground would fall through every tick's substeps and be put
-        // back.
+        // back. Under what lies on it calmly it stands like a rock, for Bullet holds it again after the tick.
         for (const bullet::Reaction& held : reactions) {
           if (held.body != rigid) continue;
           proxy.acceleration += toEigen(held.linear);
           proxy.angularAcceleration += toEigen(held.angular);
+        }
+        if (isHeld(*rigid) && solver->maxSpeed(body->id()) < kCalmSpeed) {
+          proxy.inverseMass = 0;
+          proxy.kinematic = true;
+          proxy.velocity.setZero();
+          proxy.spin.setZero();
         }
       }
       touched.push_back(t);
@@ -213,15 +219,22 @@ void Destruction::Impl::advance(double dt) {
   times.neighbours += solver->report().listing;
   times.edem -= solver->report().listing;
   if (!solver->failure().empty()) failSolver();
+  if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
+    def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
     if (!t.rigid) continue;
     const edem::RigidProxy& s = start[p];
-    const Eigen::Vector3d change = proxies[p].inverseMass * proxies[p].impulse;
+    const Eigen::Vector3d change = double(t.rigid->getInvMass()) * proxies[p].impulse;
     t.deltaVelocity = toBullet(change);
     t.deltaSpin = t.rigid->getInvInertiaTensorWorld() * toBullet(proxies[p].angularImpulse);
-    t.freeEnd = toBullet(Eigen::Vector3d(s.position + dt * (s.velocity + dt * s.acceleration + change)));
+    // Where Bullet brings it under the same impulses, taken as one at the tick's start.
+    const btTransform begin(toBullet(s.orientation), toBullet(s.position));
+    btTransformUtil::integrateTransform(
+        begin, toBullet(Eigen::Vector3d(s.velocity + dt * s.acceleration + change)),
+        toBullet(Eigen::Vector3d(s.spin + dt * s.angularAcceleration)) + t.deltaSpin, btScalar(dt),
+        t.freeEnd);
     if (proxies[p].contactWeight > 0 && !t.rigid->isActive()) t.rigid->activate();
   }
   for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
@@ -267,20 +280,24 @@ void Destruction::Impl::lateImpulses() {
 // had it.
 void Destruction::Impl::fixPositions() {
   BT_PROFILE("Rubble fix positions");
-  double radius = std::numeric_limits<double>::infinity();
-  for (DestructibleBody* body : bodies) radius = std::min(radius, solver->radius(body->id()));
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
-    if (!t.rigid || !(proxies[p].contactWeight > 0)) continue;
-    const btVector3 shift = toBullet(proxies[p].position) - t.freeEnd;
-    const double size = double(shift.length()) / radius;
-    const double blend = std::clamp((size - kFixBegin) / (kFixFull - kFixBegin), 0.0, 1.0);
-    if (blend <= 0) continue;
+    if (!t.rigid || !(proxies[p].contactWeight > 0) || isHeld(*t.rigid)) continue;
     btTransform at = t.rigid->getWorldTransform();
-    at.setOrigin(at.getOrigin() + btScalar(blend) * shift);
+    at.setOrigin(at.getOrigin() + toBullet(proxies[p].position) - t.freeEnd.getOrigin());
+    at.setRotation((toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse() * at.getRotation())
+                       .normalized());
     t.rigid->setWorldTransform(at);
     t.rigid->setInterpolationWorldTransform(at);
   }
+}
+
+// Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs.
+bool Destruction::Impl::isHeld(const btRigidBody& rigid) const {
+  const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
+  return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
+    return r.body == &rigid && r.linear.length() > least;
+  });
 }
 
 // A body that was at rest before and after this tick is held by something that only Bullet knows: the
