@@ -84,6 +84,25 @@ Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, 
   return spring;
 }
 
+// From the middle between the two elements to the centroid of the face that their cells share, in its plane
+// [m].
+Eigen::Vector3d centroidFromMiddle(const Asset& asset, const AssetSpring& spring) {
+  const Eigen::Vector3d &first = asset.positions[spring.first], &second = asset.positions[spring.second];
+  const Eigen::Vector3d middle = 0.5 * (first + second), axis = (second - first).normalized();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (const CellFace& face : asset.cellFaces(spring.first)) {
+    if (face.neighbour != spring.second) continue;
+    moment += double(face.area) * (face.centroid.cast<double>() - middle);
+    area += double(face.area);
+  }
+  if (!(area > 0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d offset = moment / area - axis * axis.dot(moment / area);
+  // Assets store centroids as floats: what may be their rounding is none, or a straight column would buckle.
+  const double rounding = double(std::numeric_limits<float>::epsilon()) * middle.cwiseAbs().maxCoeff();
+  return offset.norm() > rounding ? offset : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 template <class Real>
 void makeSprings(Body<Real>& body, const BodyDef& def) {
   const Asset& asset = *def.asset;
@@ -93,6 +112,9 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
     const Eigen::Vector3d rest = asset.positions[s.second] - asset.positions[s.first];
     body.springs.push_back(makeSpring<Real>(s.first, s.second, s.area, rest.norm(), def.material, def.model));
     body.springRest.push_back(rest);
+    // DEVIATION (default): the paper's spring acts at the middle of d0, beside its face.
+    body.springOffset.push_back(def.model.rotationalStiffness ? centroidFromMiddle(asset, s)
+                                                              : Eigen::Vector3d(Eigen::Vector3d::Zero()));
   }
   body.anchorBegin = body.springs.size();
   for (std::size_t a = 0; a < anchors; ++a) {
@@ -103,6 +125,7 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
     body.springs.push_back(makeSpring<Real>(anchor.element, anchor.element, anchor.area, 0.5 * rest.norm(),
                                             def.material, def.model));
     body.springRest.push_back(rest);
+    body.springOffset.push_back(Eigen::Vector3d::Zero());
   }
   body.anchorsIntact = std::uint32_t(anchors);
   body.intact.assign(body.springs.size(), 1);
@@ -261,8 +284,10 @@ void turnRest(Body<Real>& body) {
   const Eigen::Matrix3d turn = body.turn.toRotationMatrix();
   for (std::size_t i = 0; i < body.elementCount(); ++i)
     body.rest[i] = (turn * body.restCentred[i]).template cast<Real>();
-  for (std::size_t s = 0; s < body.springs.size(); ++s)
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
     body.springs[s].rest = (turn * body.springRest[s]).template cast<Real>();
+    body.springs[s].offset = (turn * body.springOffset[s]).template cast<Real>();
+  }
 }
 
 template <class Real>

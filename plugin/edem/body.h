@@ -62,9 +62,10 @@ struct Body {
 
   // Springs, then anchors. An anchor's far end is a fixed point.
   std::vector<Spring<Real>> springs;
-  std::vector<Eigen::Vector3d> springRest;   ///< d0, asset axes [m]
-  std::size_t anchorBegin = 0;               ///< springs[anchorBegin..] are anchors
-  std::vector<std::uint32_t> springOffsets;  ///< CSR: the springs and anchors of each element
+  std::vector<Eigen::Vector3d> springRest;    ///< d0, asset axes [m]
+  std::vector<Eigen::Vector3d> springOffset;  ///< from the middle of d0 to where they act, asset axes [m]
+  std::size_t anchorBegin = 0;                ///< springs[anchorBegin..] are anchors
+  std::vector<std::uint32_t> springOffsets;   ///< CSR: the springs and anchors of each element
   std::vector<std::uint32_t> springsOf;
   std::vector<std::uint32_t> pairOffsets;  ///< CSR: partners of each element, sorted by partner
   std::vector<PairIndex> pairs;

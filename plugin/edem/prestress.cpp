@@ -70,7 +70,8 @@ Problem problemOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
     const Spring<Real>& spring = body.springs[s];
     p.stiffness.links.push_back({spring.first, body.isAnchor(s) ? kNoElement : spring.second,
                                  double(spring.stiffness), double(spring.rotational), body.springRest[s],
-                                 0.5 * body.springRest[s], 0.5 * body.springRest[s]});
+                                 body.springOffset[s], 0.5 * body.springRest[s] + body.springOffset[s],
+                                 0.5 * body.springRest[s] - body.springOffset[s]});
   }
   setShift(p.stiffness);
   p.mass = body.mass;
@@ -90,6 +91,7 @@ VectorXd residualForce(const Problem& p, const AssetRest& rest) {
   for (const RestLink& l : p.stiffness.links) {
     Spring<double> spring{};
     spring.rest = l.rest;
+    spring.offset = l.offset;
     spring.stiffness = l.stiffness;
     spring.rotational = l.rotational;
     const auto end = [&](std::uint32_t i) {
@@ -145,8 +147,9 @@ Largest advance(AssetRest& rest, const VectorXd& step) {
 
 void turnHalves(RestStiffness& k, const AssetRest& rest) {
   for (RestLink& l : k.links) {
-    l.halfFirst = 0.5 * (l.rest + turned(rest.rotations[l.first], l.rest));
-    if (l.second != kNoElement) l.halfSecond = 0.5 * (l.rest + turned(rest.rotations[l.second], l.rest));
+    const Eigen::Vector3d first = 0.5 * l.rest + l.offset, second = 0.5 * l.rest - l.offset;
+    l.halfFirst = first + turned(rest.rotations[l.first], first);
+    if (l.second != kNoElement) l.halfSecond = second + turned(rest.rotations[l.second], second);
   }
 }
 

@@ -24,8 +24,9 @@ struct RestLink {
   double stiffness;             ///< k [N/m]
   double rotational;            ///< k_rot [N m]
   Eigen::Vector3d rest;         ///< d0 [m]
-  Eigen::Vector3d halfFirst;    ///< d0 / 2 as the first element turns it [m]
-  Eigen::Vector3d halfSecond;   ///< and the second
+  Eigen::Vector3d offset;       ///< from the middle of d0 to where the spring acts [m]
+  Eigen::Vector3d halfFirst;    ///< d0 / 2 + offset as the first element turns it [m]
+  Eigen::Vector3d halfSecond;   ///< d0 / 2 - offset as the second turns it [m]
 };
 
 struct RestStiffness {

@@ -3,13 +3,17 @@
 //
 //        I            d0             K          d  = rest vector I -> K in the body's frame, turned with the
 //        frame o--------------------------->o          dx = gap between the two elements' ends of the spring:
-//         \__ a_I __/ \__ a_K __/                 (x_K - x_I) - (R_I + R_K) d0 / 2
+//         \__ a_I __/ \__ a_K __/                 (x_K - x_I) - R_I (d0 / 2 + o) - R_K (d0 / 2 - o)
 //
 //   U = k/2 |dx|^2 + k_rot (1 - cos phi),  phi the relative rotation.
 //
 // Everything is differences from the body's rigid frame: displacements u, relative rotations R' (see body.h),
 // so that float keeps its digits for the strain. DEVIATION: k_rot is not in the paper; without it a lone
-// chain has no stiffness in bending. Model::rotationalStiffness switches it off (k_rot = 0).
+// chain has no stiffness in bending. DEVIATION: the spring acts at its face's centroid, o from the middle of
+// d0. Then forces and torques of a packing balance in any even strain (the cells' faces close), so that its
+// modulus and its tractions are those of the solid: an elastically homogeneous rigid-body-spring network
+// [BolanderSaito98]. At the middle they turn the cells, which softens the packing and overloads single
+// springs. Model::rotationalStiffness switches both off (k_rot = 0, o = 0).
 #pragma once
 
 #include "edem/types.h"
@@ -22,6 +26,7 @@ struct Spring {
   std::uint32_t first;     ///< element I
   std::uint32_t second;    ///< element K; an anchor's own element I again (its far end does not move)
   Vec3<Real> rest;         ///< d0 turned with the frame [m]
+  Vec3<Real> offset;       ///< from the middle of d0 to where the spring acts, turned likewise [m]
   Real stiffness;          ///< k [N/m]
   Real rotational;         ///< k_rot [N m]
   Real damping;            ///< dashpot beside k [N s/m]
@@ -63,12 +68,14 @@ template <class Real>
 SpringLoad<Real> springLoad(const Spring<Real>& spring, const SpringEnd<Real>& first,
                             const SpringEnd<Real>& second) {
   SpringLoad<Real> load;
-  const Vec3<Real> turnFirst = turned(first.turn, spring.rest);
-  const Vec3<Real> turnSecond = turned(second.turn, spring.rest);
-  load.gap = (second.displacement - first.displacement) - Real(0.5) * (turnFirst + turnSecond);
-  load.axis = spring.rest + Real(0.5) * (turnFirst + turnSecond);
-  load.armFirst = Real(0.5) * (spring.rest + turnFirst + load.gap);
-  load.armSecond = Real(0.5) * (spring.rest + turnSecond + load.gap);
+  const Vec3<Real> half = Real(0.5) * spring.rest;
+  const Vec3<Real> restFirst = half + spring.offset, restSecond = half - spring.offset;
+  const Vec3<Real> turnFirst = turned(first.turn, restFirst);
+  const Vec3<Real> turnSecond = turned(second.turn, restSecond);
+  load.gap = (second.displacement - first.displacement) - (turnFirst + turnSecond);
+  load.axis = spring.rest + (turnFirst + turnSecond);
+  load.armFirst = restFirst + turnFirst + Real(0.5) * load.gap;
+  load.armSecond = restSecond + turnSecond + Real(0.5) * load.gap;
 
   const Vec3<Real> gapRate =
       second.velocity - first.velocity - first.spin.cross(load.armFirst) - second.spin.cross(load.armSecond);

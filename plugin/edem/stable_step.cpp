@@ -14,16 +14,16 @@ void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
     if (!body.intact[s]) continue;
     const Spring<Real>& spring = body.springs[s];
-    const double quarter = 0.25 * double(spring.rest.squaredNorm());
-    const auto add = [&](std::uint32_t i) {
+    const auto add = [&](std::uint32_t i, double side) {
+      const double quarter = double((Real(0.5) * spring.rest + Real(side) * spring.offset).squaredNorm());
       const double m = body.mass[i], inertia = body.inertia[i];
       rates[i].stiffness += double(spring.stiffness) / m +
                             (double(spring.stiffness) * quarter + double(spring.rotational)) / inertia;
       rates[i].damping += double(spring.damping) / m +
                           (double(spring.damping) * quarter + double(spring.rotationalDamping)) / inertia;
     };
-    add(spring.first);
-    if (!body.isAnchor(s)) add(spring.second);
+    add(spring.first, 1);
+    if (!body.isAnchor(s)) add(spring.second, -1);
   }
 }
 

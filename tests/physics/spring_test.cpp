@@ -16,6 +16,7 @@ Spring<double> someSpring() {
   Spring<double> s{};
   s.second = 1;
   s.rest = Vec3<double>(0.2, -0.1, 0.15);
+  s.offset = Vec3<double>(0.03, 0.05, -0.02);
   s.stiffness = 7e5;
   s.rotational = 900;
   s.damping = 300;
