@@ -66,7 +66,7 @@ const Table<Material>& materialKeys() {
                        : "must be at least tensile_strength, " + shown(m.tensileStrength);
           }),
       number<Material>("breaking_angle", &Material::breakingAngle, limits::kBreakingAngle, "rad",
-                       "relative rotation at which a spring breaks"),
+                       "relative rotation at which a spring breaks under the criterion `stretch`"),
       number<Material>("stretch_threshold", &Material::stretchThreshold, limits::kStretchThreshold, "",
                        "relative stretch at which a spring breaks under the criterion `stretch`"),
       number<Material>("spring_damping", &Material::springDamping, limits::kSpringDamping, "",

@@ -9,12 +9,17 @@ namespace {
 using edem::Vec3;
 
 constexpr double kTension = 1e6, kCompression = 10e6, kModulus = 1e9;
+constexpr double kEdge = 0.2;  // of the square face [m]
+// k_rot [N m]: so stiff that faces break before their angle shortens the spring.
+constexpr double kRotational = 1e8;
 
 template <class Real>
 class Strength : public ::testing::Test {
  protected:
-  // True if a spring along x, 0.2 m long, breaks under the tractions [Pa]; tension is positive.
-  bool breaksAt(double normal, double shear, BreakMode& mode, double angle = 0) {
+  // True if a spring along x, 0.2 m long, breaks under the tractions [Pa]; tension is positive. `turn` is the
+  // relative rotation [rad].
+  bool breaksAt(double normal, double shear, BreakMode& mode,
+                const Eigen::Vector3d& turn = Eigen::Vector3d::Zero()) {
     Material material;
     material.tensileStrength = kTension;
     material.compressiveStrength = kCompression;
@@ -22,11 +27,15 @@ class Strength : public ::testing::Test {
     spring.rest = Vec3<Real>(Real(0.2), 0, 0);
     spring.area = Real(0.04);
     spring.stiffness = Real(kModulus * 0.04 / 0.2);
+    spring.rotational = Real(rotational);
     edem::SpringEnd<Real> first, second;
     second.displacement = Vec3<Real>(Real(normal * 0.2 / kModulus), Real(shear * 0.2 / kModulus), 0);
-    // Opposite half turns about the spring's axis: no gap, relative rotation `angle`.
-    first.turn = edem::Quat<Real>(Real(std::cos(angle / 4)), Real(-std::sin(angle / 4)), 0, 0);
-    second.turn = first.turn.conjugate();
+    // Half of the turn at either end, the opposite way: the relative rotation is `turn`, and the ends meet.
+    const double angle = turn.norm();
+    const Eigen::Vector3d axis = angle > 0 ? Eigen::Vector3d(turn / angle) : Eigen::Vector3d::UnitX();
+    const auto part = Eigen::Quaterniond(Eigen::AngleAxisd(angle / 2, axis));
+    second.turn = edem::Quat<Real>(Real(part.w()), Real(part.x()), Real(part.y()), Real(part.z()));
+    first.turn = second.turn.conjugate();
     return edem::breaks(edem::makeCriterion<Real>(material, model), spring,
                         edem::springLoad(spring, first, second), mode);
   }
@@ -39,6 +48,7 @@ class Strength : public ::testing::Test {
     EXPECT_EQ(mode, expected);
   }
   Model model;
+  double rotational = kRotational;
 };
 TYPED_TEST_SUITE(Strength, Scalars);
 
@@ -67,11 +77,60 @@ TYPED_TEST(Strength, PressureRaisesShearStrengthByInternalFriction) {
   EXPECT_EQ(mode, BreakMode::Shear);
 }
 
-TYPED_TEST(Strength, BreaksAtTheBreakingAngle) {
+// The moment of k_rot by an angle about `axis`, so that M = `moment` [N m].
+Eigen::Vector3d turnOf(double moment, const Eigen::Vector3d& axis) {
+  return std::asin(moment / kRotational) * axis;
+}
+
+TYPED_TEST(Strength, BendsUntilTheEdgeReachesTensileStrength) {
+  // A square face of edge a: sigma = M (a/2) / (a^4/12) = 6 M / a^3, beside the mean stress. At half the
+  // tensile strength the other half is left for bending, and under pressure more than all of it.
+  for (const double normal : {0.0, 0.5 * kTension, -2 * kTension, -9 * kTension}) {
+    const double moment = (kTension - normal) * std::pow(kEdge, 3) / 6;
+    BreakMode mode{};
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
+      EXPECT_FALSE(this->breaksAt(normal, 0, mode, turnOf(moment * (1 - 1e-4), axis))) << normal;
+      EXPECT_TRUE(this->breaksAt(normal, 0, mode, turnOf(moment * (1 + 1e-4), axis))) << normal;
+      EXPECT_EQ(mode, BreakMode::Tension);
+    }
+  }
+}
+
+TYPED_TEST(Strength, ItsPressedEdgeAloneBreaksNothing) {
+  // Mean pressure 0.9 f_c, at the pressed edge 1.8 f_c, at the other edge none.
+  BreakMode mode{};
+  const double moment = 0.9 * kCompression * std::pow(kEdge, 3) / 6;
+  EXPECT_FALSE(this->breaksAt(-0.9 * kCompression, 0, mode, turnOf(moment, Eigen::Vector3d::UnitY())));
+}
+
+TYPED_TEST(Strength, TwistsUntilTheEdgeReachesShearStrength) {
+  // Torsion of a square bar: tau = T / (0.208 a^3) in the middle of its sides (Timoshenko and Goodier, Theory
+  // of Elasticity, 3rd ed., article 109); there it adds to the mean shear.
+  const double c = 0.5 * std::sqrt(kCompression * kTension);
+  const double mu = (kCompression - kTension) / (2 * std::sqrt(kCompression * kTension));
+  for (const double pressure : {0.0, 2e6}) {
+    for (const double shear : {0.0, 0.7e6}) {
+      const double torque = (c + mu * pressure - shear) * 0.208 * std::pow(kEdge, 3);
+      BreakMode mode{};
+      EXPECT_FALSE(
+          this->breaksAt(-pressure, shear, mode, turnOf(torque * (1 - 1e-4), Eigen::Vector3d::UnitX())));
+      EXPECT_TRUE(
+          this->breaksAt(-pressure, shear, mode, turnOf(torque * (1 + 1e-4), Eigen::Vector3d::UnitX())));
+      EXPECT_EQ(mode, BreakMode::Shear);
+    }
+  }
+}
+
+TYPED_TEST(Strength, ThePapersAngleIsOfThePaperAlone) {
   const double angle = Material{}.breakingAngle;
   BreakMode mode{};
-  EXPECT_FALSE(this->breaksAt(0, 0, mode, angle * (1 - 1e-4)));
-  EXPECT_TRUE(this->breaksAt(0, 0, mode, angle * (1 + 1e-4)));
+  this->rotational = 0;
+  const auto twist = [](double by) { return Eigen::Vector3d(by, 0, 0); };
+  EXPECT_FALSE(this->breaksAt(0, 0, mode, twist(89.0 / 180 * edem::kPi)));
+  EXPECT_TRUE(this->breaksAt(0, 0, mode, twist(91.0 / 180 * edem::kPi))) << "k_rot sin(phi) falls from here";
+  this->model.breakCriterion = BreakCriterion::Stretch;
+  EXPECT_FALSE(this->breaksAt(0, 0, mode, twist(angle * (1 - 1e-4))));
+  EXPECT_TRUE(this->breaksAt(0, 0, mode, twist(angle * (1 + 1e-4))));
   EXPECT_EQ(mode, BreakMode::Rotation);
 }
 

@@ -236,7 +236,7 @@ TYPED_TEST(Prestress, ATurnedBodyStandsStillToo) {
   // Lying on its side against gravity along its own axis: the asset's state is turned with the body.
   edem::BodyDef def = block({2, 10, 2}, true);
   def.transform.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
-  const auto solver = makeSolver<TypeParam>();
+  const auto solver = makeSolver<TypeParam>(false);  // two metres of it break under their weight
   const std::uint32_t id = solver->addBody(def, kGravity);
   ASSERT_EQ(solver->prestressed(id).outcome, edem::PrestressOutcome::Done) << solver->prestressed(id).reason;
   double fastest = 0;

@@ -12,9 +12,10 @@ struct Material {
   std::string name = "concrete_soft";
   double density = 2400;               ///< of the solid [kg/m^3], > 0
   double youngsModulus = 30e6;         ///< E of the pore springs, k = E A / |d0| [Pa], > 0
-  double tensileStrength = 0.33e6;     ///< f_t on a spring's traction [Pa], >= 0
-  double compressiveStrength = 3.3e6;  ///< f_c [Pa], >= f_t
-  double breakingAngle = 0.022;        ///< relative rotation at which a spring breaks [rad], > 0
+  double tensileStrength = 0.33e6;     ///< f_t of the solid [Pa], >= 0
+  double compressiveStrength = 3.3e6;  ///< f_c of the solid [Pa], >= f_t
+  /// Relative rotation at which a spring breaks under the paper's criterion [rad], > 0.
+  double breakingAngle = 0.022;
   /// |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless.
   double stretchThreshold = 0.011;
   /// Damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5.
@@ -38,8 +39,8 @@ Material material(std::string_view name);
 std::vector<std::string> materialNames();
 
 enum class BreakCriterion {
-  MohrCoulomb,  ///< default: tension, compression and shear strength on the spring's traction
-  Stretch       ///< the paper: |dx| / |d0| passes a threshold in any direction
+  MohrCoulomb,  ///< default: tension, compression and shear strength on the stresses of the spring's face
+  Stretch       ///< the paper: |dx| / |d0| passes a threshold in any direction, or the rotation its angle
 };
 enum class DebrisSizes {
   Mass,   ///< default: each piece carries an equal share of the mass
@@ -55,7 +56,9 @@ enum class CellJoining {
 /// paper to the letter. Every difference is marked DEVIATION in the code and listed in plugin/README.md.
 struct Model {
   BreakCriterion breakCriterion = BreakCriterion::MohrCoulomb;
-  bool rotationalStiffness = true;  ///< the springs' k_rot; off in the paper
+  /// Springs act as whole faces: at the face's centroid, and with k_rot against bending and twist; off in the
+  /// paper.
+  bool rotationalStiffness = true;
   /// Spring and contact act together on a joined pair, as printed in the paper.
   bool contactBesideSpring = false;
   bool coulombFriction = true;  ///< friction limited by mu |F_n|; off in the paper
