@@ -77,6 +77,8 @@ const Table<Material>& materialKeys() {
                        "damping ratio of contacts"),
       number<Material>("friction", &Material::friction, limits::kFriction, "",
                        "Coulomb's coefficient of contacts"),
+      number<Material>("restitution", &Material::restitution, limits::kRestitution, "",
+                       "of a blow; times that of what it hits"),
       number<Material>("rolling_friction", &Material::rollingFriction, limits::kRollingFriction, "",
                        "resistance of contacts to rolling and twisting, in radii of curvature"),
       number<Material>("bond_work_index", &Material::bondWorkIndex, limits::kBondWorkIndex, "kWh/t",

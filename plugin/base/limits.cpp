@@ -30,6 +30,7 @@ void check(const Material& m) {
   within(limits::kContactStiffness, "contactStiffness", m.contactStiffness, "");
   within(limits::kContactDamping, "contactDamping", m.contactDamping, "");
   within(limits::kFriction, "friction", m.friction, "");
+  within(limits::kRestitution, "restitution", m.restitution, "");
   within(limits::kRollingFriction, "rollingFriction", m.rollingFriction, "");
   within(limits::kBondWorkIndex, "bondWorkIndex", m.bondWorkIndex, " kWh/t");
   within(limits::kCrushEfficiency, "crushEfficiency", m.crushEfficiency, "");

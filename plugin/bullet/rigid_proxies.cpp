@@ -152,6 +152,7 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
   proxy.position = toEigen(object.getWorldTransform().getOrigin());
   proxy.orientation = toEigen(object.getWorldTransform().getRotation()).normalized();
   proxy.friction = double(object.getFriction());
+  proxy.restitution = double(object.getRestitution());
   proxy.key = keyOf(object);
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   // Bullet's manual makes kinematic bodies of static ones and leaves the flag for static set.

@@ -224,6 +224,7 @@ void makeContact(Body<Real>& body) {
   contact.damping = m.contactDamping;
   contact.friction = body.model.coulombFriction ? m.friction : -1;
   contact.rollingFriction = m.rollingFriction;
+  contact.restitution = m.restitution;
   contact.memory = body.model.contactMemory;
 }
 

@@ -43,6 +43,24 @@ struct PairIndex {
 
 inline constexpr std::uint32_t kNoPair = 0xffffffffu;
 
+/// Rigid motion of one fragment, and what its contacts do to it in this substep (fragment_motion.h).
+struct FragmentMotion {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of mass, world [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of it [m/s]
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< [rad/s]
+  double inverseMass = 0;                              ///< 0 where an anchor holds it [1/kg]
+  Eigen::Matrix3d inverseInertia = Eigen::Matrix3d::Zero();
+  bool fixed = false;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the centre [N m]
+  double pressing = 0;                               ///< sum of the sizes of its contacts' forces [N]
+  double pressed = 0;                                ///< the same in the last substep [N]
+
+  Eigen::Vector3d velocityAt(const Eigen::Vector3d& world) const {
+    return velocity + spin.cross(world - centre);
+  }
+};
+
 template <class Real>
 struct Body {
   std::uint32_t id = 0;
@@ -86,6 +104,8 @@ struct Body {
   std::vector<std::uint8_t> intact;         ///< springs, then anchors
   std::vector<Real> range;                  ///< D of each pair [m]
   std::vector<std::uint16_t> touchesBegun;  ///< at each element since the substep was chosen
+  std::vector<FragmentMotion> motions;      ///< of the fragments
+  std::vector<std::uint32_t> motionOf;      ///< each element's place in `motions`
   std::vector<std::uint8_t> anchored;       ///< 1 while an anchor carries the element
   /// Lowest element connected with I through springs; kNoElement if crushed.
   std::vector<std::uint32_t> fragment;

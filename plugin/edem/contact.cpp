@@ -1,5 +1,7 @@
 #include "edem/contact.h"
 
+#include <algorithm>
+
 namespace rubble::edem {
 namespace {
 
@@ -22,6 +24,8 @@ ContactLaw<double> contactLaw(const ContactSide& a, const ContactSide& b) {
   law.tangentialDamping = law.damping;
   law.friction = a.friction < 0 || b.friction < 0 ? -1 : 0.5 * (a.friction + b.friction);
   if (!a.memory || !b.memory) return law;
+  const double restitution = a.restitution * b.restitution;
+  law.inelastic = std::max(0.0, 1 - restitution * restitution);
 
   law.tangential = kTangentialShare * law.stiffness;
   law.tangentialDamping = dashpot(ratio, law.tangential, 1 / (moves + a.turning + b.turning));

@@ -30,11 +30,13 @@ struct ContactLaw {
   Real rollingDamping = 0;     ///< eta_r [N m s]
   Real rollingReach = 0;       ///< mu_r R [m]
   Real friction = 0;           ///< mu; negative: unlimited
+  Real inelastic = 0;          ///< 1 - e^2: share of the normal force withheld while the bodies part
 
   template <class Other>
   ContactLaw<Other> cast() const {
-    return {Other(stiffness), Other(damping),        Other(tangential),   Other(tangentialDamping),
-            Other(rolling),   Other(rollingDamping), Other(rollingReach), Other(friction)};
+    return {Other(stiffness),         Other(damping),  Other(tangential),
+            Other(tangentialDamping), Other(rolling),  Other(rollingDamping),
+            Other(rollingReach),      Other(friction), Other(inelastic)};
   }
 };
 
@@ -77,6 +79,7 @@ template <class Real>
 struct ContactMotion {
   Real overlap = 0;     ///< > 0 [m]
   Real share = 1;       ///< of the normal spring's force, see touchShare
+  Real withheld = 0;    ///< share of the normal force, see withheld in fragment_motion.h
   Vec3<Real> normal;    ///< unit
   Vec3<Real> approach;  ///< velocity at the contact point [m/s]
   Vec3<Real> spin;      ///< [rad/s]
@@ -153,7 +156,7 @@ ContactLoad<Real> contactLoad(const ContactLaw<Real>& law, const ContactMotion<R
   const Vec3<Real>& normal = motion.normal;
   const Real pushed = law.stiffness * motion.overlap * motion.share;
   const Real normalSpeed = motion.approach.dot(normal);
-  const Real total = std::fmax(Real(0), pushed - law.damping * normalSpeed);
+  const Real total = (Real(1) - motion.withheld) * std::fmax(Real(0), pushed - law.damping * normalSpeed);
 
   // The tangent plane has turned since: xi turns with it and keeps its length.
   const Real size2 = memory.slip.squaredNorm();
@@ -209,6 +212,7 @@ struct ContactSide {
   double damping = 0;          ///< ratio
   double friction = 0;         ///< negative: unlimited
   double rollingFriction = 0;  ///< mu_r
+  double restitution = 0;      ///< that of a contact is the product of both sides', as Bullet has it
   bool memory = true;          ///< false: the paper
 };
 

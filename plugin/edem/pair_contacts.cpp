@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "edem/fragment_motion.h"
 #include "edem/stages.h"
 
 namespace rubble::edem {
@@ -14,6 +15,7 @@ struct PairTouch {
   bool touches = false;
   ContactLoad<Real> load;
   Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
+  Eigen::Vector3d at;              // contact point, world [m]
   Real power = 0;                  // of the elastic loads [W]
   Real lost = 0;                   // by a pair that has parted [J]
 };
@@ -67,6 +69,15 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   const Real speed = -motion.approach.dot(motion.normal);
   if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
   motion.share = touchShare(motion.overlap, speed, next, memory.onset);
+  touch.at = a.origin + (a.position[i] + touch.armFirst).template cast<double>();
+  const FragmentMotion &fragmentA = a.motions[a.motionOf[i]], &fragmentB = b.motions[b.motionOf[j]];
+  if (&fragmentA != &fragmentB) {
+    const double parting = (fragmentB.velocityAt(touch.at) - fragmentA.velocityAt(touch.at))
+                               .dot(motion.normal.template cast<double>());
+    motion.withheld = Real(withheld(double(list.law.inelastic), parting,
+                                    steps.next * (fragmentA.pressed * fragmentA.inverseMass +
+                                                  fragmentB.pressed * fragmentB.inverseMass)));
+  }
   touch.load = contactLoad(list.law, motion, moved, memory);
   touch.power = touch.load.elastic.dot(motion.approach) + touch.load.elasticTorque.dot(motion.spin);
   return touch;
@@ -122,6 +133,12 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
     list.elastic += double(touch.load.energy);
     slipped += double(touch.load.slipped);
     addTouch(touch, a, entry.first, b, entry.second, Real(1));
+    const Eigen::Vector3d force = (touch.load.elastic + touch.load.damping).template cast<double>();
+    const Eigen::Vector3d torque =
+        (touch.load.elasticTorque + touch.load.dampingTorque).template cast<double>();
+    if (&a == &b && a.motionOf[entry.first] == b.motionOf[entry.second]) continue;
+    pushMotion(a, entry.first, touch.at, -force, -torque);
+    pushMotion(b, entry.second, touch.at, force, torque);
   }
   books.dissipated.add(-slipped, 0);
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "edem/fragment_motion.h"
 #include "edem/step_length.h"
 
 namespace rubble::edem {
@@ -187,6 +188,7 @@ void RigidContacts<Real>::soften(double frequency2) {
       ContactSide rigid = side;
       rigid.mobility = state.mobility;
       rigid.turning = rigid.radius = 0;
+      rigid.restitution = m_proxies[p].restitution;
       state.laws.push_back(contactLaw(side, rigid));
       state.laws.back().friction = friction;
       const ContactLaw<double>& law = state.laws.back();
@@ -242,6 +244,13 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   const double speed = -motion.approach.dot(motion.normal);
   if (steps.moved > 0) c.memory.onset = c.touching ? 1 : onsetShare(motion.overlap, speed, steps.moved);
   motion.share = touchShare(motion.overlap, speed, steps.next, c.memory.onset);
+  const FragmentMotion& fragment = body.motions[body.motionOf[i]];
+  const double parting =
+      (fragment.velocityAt(out.at) - proxy.velocity - proxy.spin.cross(out.at - proxy.position))
+          .dot(motion.normal);
+  motion.withheld = withheld(
+      law.inelastic, parting,
+      steps.next * (fragment.pressed * fragment.inverseMass + m_states[c.proxy].pressed * proxy.inverseMass));
 
   const ContactLoad<double> load = contactLoad(law, motion, steps.moved, c.memory);
   // The element gets the load in its own scalar; what is booked and given to the rigid body is exactly that.
@@ -278,7 +287,7 @@ template <class Real>
 void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double kick, Books& books) {
   for (ProxyState& s : m_states) {
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
-    s.size = 0;
+    s.pressed = std::exchange(s.size, 0);
   }
   m_elastic = 0;
   for (const Kept& k : m_kept) m_elastic += k.energy;
@@ -301,6 +310,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     m_elastic += t.energy;
     slipped += t.slipped;
     add(t, c, body, 1);
+    pushMotion(body, c.element, t.x, t.force, t.torque);
     const double size = kick * t.force.norm();
     proxy.contactPoint += size * t.at;
     proxy.contactWeight += size;

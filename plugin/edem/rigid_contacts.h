@@ -76,6 +76,7 @@ class RigidContacts {
     Eigen::Vector3d force, torque;                // on the rigid body in this substep
     Eigen::Vector3d dampingForce, dampingTorque;  // the part of it that is lost energy
     double size = 0;                              // sum of |force| [N]
+    double pressed = 0;                           // the same in the last substep [N]
     Eigen::Vector3d listedPosition;
     Eigen::Quaterniond listedOrientation;
     double mobility = 0;                   // sum over candidates of speed / impulse [1/kg]

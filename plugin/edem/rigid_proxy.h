@@ -22,7 +22,8 @@ struct RigidProxy {
   Eigen::Vector3d angularAcceleration = Eigen::Vector3d::Zero();  ///< [rad/s^2]
   double inverseMass = 0;                                    ///< 0: static or moved by the application [1/kg]
   Eigen::Vector3d inverseInertia = Eigen::Vector3d::Zero();  ///< along its own axes [1/(kg m^2)]
-  double friction = 0.5;  ///< mu of the pair is this times the element's, as Bullet combines them
+  double friction = 0.5;   ///< mu of the pair is this times the element's, as Bullet combines them
+  double restitution = 0;  ///< that of the pair is this times the element's
   std::vector<Collider> parts;
 
   // Collected by the substeps.

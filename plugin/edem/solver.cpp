@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/stopwatch.h"
 #include "edem/damping.h"
+#include "edem/fragment_motion.h"
 #include "edem/pair_lists.h"
 #include "edem/prestress.h"
 #include "edem/rigid_contacts.h"
@@ -236,6 +237,8 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   if (!m_failure.empty() || !(dt > 0)) return;
   m_rigid.beginTick(proxies);
   m_stepLength.beginTick(m_bodies);
+  for (auto& body : m_bodies)
+    if (!body->asleep || body->motions.empty()) beginMotions(*body);
   m_listsStale = true;
   double left = dt, step = dt;
   int substeps = 0;
@@ -302,6 +305,7 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
         integrate(body, kick, step, gravity, std::span<const Vec3<Real>>(m_lists.grid(b).listed), m_books);
     if (!std::isfinite(moved2))
       m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
+    moveMotions(body, kick, step, gravity);
     m_listsStale = m_listsStale || !(moved2 <= Real(0.25 * m_lists.skin() * m_lists.skin()));
   }
   m_rigid.integrate(kick, step, m_books);

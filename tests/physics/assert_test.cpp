@@ -60,13 +60,13 @@ TEST_F(AssertDeathTest, MotionRefusesPlacesOfAnotherBody) {
 }
 
 TEST_F(AssertDeathTest, AContactRefusesANormalThatIsNotUnit) {
-  const edem::ContactMotion<double> motion{1e-3, 1, {0, 2, 0}, {0, -1, 0}, {0, 0, 0}};
+  const edem::ContactMotion<double> motion{1e-3, 1, 0, {0, 2, 0}, {0, -1, 0}, {0, 0, 0}};
   edem::ContactMemory<double> memory;
   EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "squaredNorm");
 }
 
 TEST_F(AssertDeathTest, AContactRefusesAGap) {
-  const edem::ContactMotion<double> motion{-1e-3, 1, {0, 1, 0}, {0, -1, 0}, {0, 0, 0}};
+  const edem::ContactMotion<double> motion{-1e-3, 1, 0, {0, 1, 0}, {0, -1, 0}, {0, 0, 0}};
   edem::ContactMemory<double> memory;
   EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "overlap > 0");
 }

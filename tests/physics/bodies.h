@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "edem/fragment_motion.h"
 #include "edem/solver.h"
 #include "support/grid_asset.h"
 
@@ -21,7 +22,7 @@ inline const Eigen::Vector3d kGravity(0, -9.81, 0);
 inline const Eigen::Vector3d kNoGravity = Eigen::Vector3d::Zero();
 inline constexpr double kFrame = 1.0 / 60;
 
-/// A block of cubes of 0.2 m; without any damping or friction unless the test sets some.
+/// A block of cubes of 0.2 m; without any damping, friction or loss of blows unless the test sets some.
 inline edem::BodyDef block(const std::array<int, 3>& cubes, bool anchored = false, double edge = 0.2) {
   GridAssetDef grid;
   grid.cubes = cubes;
@@ -33,6 +34,7 @@ inline edem::BodyDef block(const std::array<int, 3>& cubes, bool anchored = fals
   def.material.springDamping = 0;
   def.material.contactDamping = 0;
   def.material.friction = 0;
+  def.material.restitution = 1;
   return def;
 }
 
@@ -74,6 +76,7 @@ class OneBody {
     edem::Body<Real>& b = body();
     m_books.closeStep();
     edem::beginSubstep(b);
+    edem::beginMotions(b);
     m_lists.build(m_bodies, 0.5 * double(b.radius));
     m_books.elastic = edem::accumulateSprings(b, step, breaking, m_books);
     for (edem::PairList<Real>& l : m_lists.lists()) {

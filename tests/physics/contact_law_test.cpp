@@ -25,9 +25,9 @@ class Contact : public ::testing::Test {
   // Load at kOverlap, with the normal along y.
   ContactLoad<Real> load(const Vec3<Real>& approach, Real moved = 0,
                          const Vec3<Real>& spin = Vec3<Real>::Zero()) {
-    return edem::contactLoad<Real>(law, {kOverlap, 1, {0, 1, 0}, approach, spin}, moved, memory);
+    return edem::contactLoad<Real>(law, {kOverlap, 1, 0, {0, 1, 0}, approach, spin}, moved, memory);
   }
-  ContactLaw<Real> law{Real(1e5), Real(200), 0, Real(200), 0, 0, 0, Real(0.5)};
+  ContactLaw<Real> law{Real(1e5), Real(200), 0, Real(200), 0, 0, 0, Real(0.5), 0};
   ContactMemory<Real> memory;
 };
 TYPED_TEST_SUITE(Contact, Scalars);
@@ -113,14 +113,14 @@ TYPED_TEST(Contact, SlipTurnsWithTheTangentPlane) {
   this->load({1, 0, 0}, Real(1e-2));
   const Vec3<Real> tilted(Real(0.6), Real(0.8), 0);
   const auto f = edem::contactLoad<Real>(
-      this->law, {this->kOverlap, 1, tilted, Vec3<Real>::Zero(), Vec3<Real>::Zero()}, 0, this->memory);
+      this->law, {this->kOverlap, 1, 0, tilted, Vec3<Real>::Zero(), Vec3<Real>::Zero()}, 0, this->memory);
   const Vec3<Real> slide = f.elastic - Real(1000) * tilted;
   EXPECT_NEAR(double(slide.dot(tilted)), 0, this->kTolerance);
   EXPECT_NEAR(double(slide.norm()), 200, this->kTolerance);
 }
 
 edem::ContactSide side() {
-  return {3e5, 1 / 12.0, 0.05 * 0.05 / 0.012, 0.05, 0.3, 0.6, 0.5, true};
+  return {3e5, 1 / 12.0, 0.05 * 0.05 / 0.012, 0.05, 0.3, 0.6, 0.5, 0, true};
 }
 
 TEST(ContactLaw, DashpotsAreOfTheirRatio) {
@@ -154,7 +154,7 @@ TEST(ContactLaw, SpringsOfUnlikeSidesStandInSeries) {
 
 TEST(ContactLaw, MemoryNeedsNoShorterStep) {
   // A ball (I = 0.4 m r^2) on a plane: modes of sliding and rolling by M^-1 K, in units of k_n / m.
-  edem::ContactSide ball{1, 1, 2.5, 1, 0, 0.6, 0.5, true};
+  edem::ContactSide ball{1, 1, 2.5, 1, 0, 0.6, 0.5, 0, true};
   edem::ContactSide plane = ball;
   plane.mobility = plane.turning = plane.radius = 0;
   const ContactLaw<double> law = edem::contactLaw(ball, plane);

@@ -47,6 +47,7 @@ TEST(HostileBody, BadMaterialIsRefusedByName) {
     EXPECT_NE(names(&Material::springDamping, bad).find("springDamping"), std::string::npos) << bad;
     EXPECT_NE(names(&Material::contactDamping, bad).find("contactDamping"), std::string::npos) << bad;
     EXPECT_NE(names(&Material::friction, bad).find("friction"), std::string::npos) << bad;
+    EXPECT_NE(names(&Material::restitution, bad).find("restitution"), std::string::npos) << bad;
     EXPECT_NE(names(&Material::rollingFriction, bad).find("rollingFriction"), std::string::npos) << bad;
   }
 }

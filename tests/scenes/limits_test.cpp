@@ -79,6 +79,7 @@ std::vector<Row> rows() {
       ofMaterial("contact_stiffness", limits::kContactStiffness, &M::contactStiffness),
       ofMaterial("contact_damping", limits::kContactDamping, &M::contactDamping),
       ofMaterial("friction", limits::kFriction, &M::friction),
+      ofMaterial("restitution", limits::kRestitution, &M::restitution),
       ofMaterial("rolling_friction", limits::kRollingFriction, &M::rollingFriction),
       ofMaterial("bond_work_index", limits::kBondWorkIndex, &M::bondWorkIndex),
       ofMaterial("crush_efficiency", limits::kCrushEfficiency, &M::crushEfficiency),

@@ -199,14 +199,20 @@ TEST_F(Program, MemoryThatIsNotThereIsExitCode1) {
 // A block of foam that meets one of stone a hundred thousand times as stiff: the substep does not cover that
 // contact, and the foam's numbers run away.
 TEST_F(Program, ARunThatGoesWrongIsExitCode3AndNamesTheObject) {
-  m_folder.write("foam.json", R"({
-    "frames": 30, "breaking": false, "statics": [{"shape": "plane"}],
-    "objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 0.25, 0], "elements": 128, "anchor": [0, -1, 0],
-                 "material": {"youngs_modulus": 3e9}},
-                {"size": [0.5, 0.5, 0.5], "position": [0, 0.8, 0], "velocity": [0, -5, 0], "elements": 512,
-                 "material": {"density": 1, "youngs_modulus": 1e4, "tensile_strength": 1e9,
-                              "compressive_strength": 1e10}}]})");
-  expectError(run("run foam.json --no-render"), 3, "object 1 (concrete_soft, 0.5 m tall): the state of its");
+  // Stiff contacts: the block alone needs the substeps that its refusal names, and more of them on the ground.
+  const auto scene = [](const std::string& substeps) {
+    return R"({"frames": 30, "breaking": false, "statics": [{"shape": "plane"}], "max_substeps_per_frame": )" +
+           substeps + R"(, "objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 0.3, 0], "elements": 128,
+               "material": {"contact_stiffness": 20}}]})";
+  };
+  m_folder.write("tight.json", scene("1"));
+  const ChildResult refused = run("run tight.json --no-render");
+  expectError(refused, 2, "substeps in 1/60 s");
+  const std::size_t end = refused.error.find(" substeps in 1/60 s");
+  const std::size_t begin = refused.error.rfind(' ', end - 1) + 1;
+  m_folder.write("tight.json", scene(refused.error.substr(begin, end - begin)));
+  expectError(run("run tight.json --no-render"), 3,
+              "object 0 (concrete_soft, 0.5 m tall): its contacts need a substep of");
 }
 
 // Said before the long work, which would announce itself.

@@ -47,6 +47,7 @@ inline constexpr Limits kContactStiffness = {1e-6, 100};  ///< dimensionless
 inline constexpr Limits kContactDamping = {0, 1};         ///< dimensionless
 inline constexpr Limits kFriction = {0, 10};              ///< dimensionless
 inline constexpr Limits kRollingFriction = {0, 1};        ///< dimensionless
+inline constexpr Limits kRestitution = {0, 1};            ///< dimensionless
 inline constexpr Limits kBondWorkIndex = {1e-6, 1e4};     ///< [kWh/t]
 inline constexpr Limits kCrushEfficiency = {1e-9, 1};     ///< dimensionless
 inline constexpr Limits kSizeModulus = {0.05, 1};         ///< dimensionless

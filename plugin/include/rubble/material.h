@@ -23,11 +23,13 @@ struct Material {
   double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
   double contactDamping = 0.3;    ///< damping ratio of the contact dashpots, normal and tangential, 0 to 1
   double friction = 0.6;          ///< Coulomb mu of contacts
+  /// e of a blow; a contact has the product of both bodies', as Bullet has it. 0 to 1.
+  double restitution = 0;
   double rollingFriction = 0.5;   ///< mu_r of rolling and twisting, in radii of curvature, 0 to 1
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
   /// Share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen.
-  double crushEfficiency = 2e-3;
+  double crushEfficiency = 1e-2;
   double sizeModulus = 0.7;  ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
   double dustRadius = 1e-6;  ///< R_dust, radius of the largest dust grain [m]
   /// Relative speed of debris / speed of the element, the paper's user value, dimensionless.

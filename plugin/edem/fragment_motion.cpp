@@ -1,0 +1,97 @@
+#include "edem/fragment_motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace rubble::edem {
+namespace {
+
+// Slower than this, what parts is at rest [m/s].
+constexpr double kRestingSpeed = 0.02;
+
+// Numbers the fragments from 0 in the order of their lowest elements.
+template <class Real>
+std::uint32_t number(Body<Real>& body) {
+  std::uint32_t count = 0;
+  body.motionOf.assign(body.elementCount(), 0);
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+    if (!body.alive[i]) continue;
+    body.motionOf[i] = body.fragment[i] == i ? count++ : body.motionOf[body.fragment[i]];
+  }
+  return count;
+}
+
+}  // namespace
+
+template <class Real>
+void beginMotions(Body<Real>& body) {
+  const std::vector<FragmentMotion> before = std::exchange(body.motions, {});
+  body.motions.resize(std::max(number(body), 1u));
+  std::vector<FragmentMotion>& motions = body.motions;
+  const auto each = [&](auto&& visit) {
+    for (std::size_t i = 0; i < body.elementCount(); ++i)
+      if (body.alive[i]) visit(i, motions[body.motionOf[i]], body.worldPosition(i));
+  };
+  std::vector<double> mass(motions.size());
+  each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
+    mass[body.motionOf[i]] += body.mass[i];
+    m.centre += body.mass[i] * x;
+    m.velocity += body.mass[i] * body.velocity[i].template cast<double>();
+    m.fixed = m.fixed || body.anchored[i];
+  });
+  for (std::size_t f = 0; f < motions.size(); ++f) {
+    if (!(mass[f] > 0)) continue;
+    motions[f].centre /= mass[f];
+    motions[f].velocity /= mass[f];
+    motions[f].inverseMass = motions[f].fixed ? 0 : 1 / mass[f];
+  }
+  std::vector<Eigen::Matrix3d> inertia(motions.size(), Eigen::Matrix3d::Zero());
+  each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
+    const Eigen::Vector3d arm = x - m.centre;
+    m.spin += body.mass[i] * arm.cross(body.velocity[i].template cast<double>()) +
+              body.inertia[i] * body.spin[i].template cast<double>();
+    inertia[body.motionOf[i]] +=
+        (body.mass[i] * arm.squaredNorm() + body.inertia[i]) * Eigen::Matrix3d::Identity() -
+        body.mass[i] * arm * arm.transpose();
+  });
+  for (std::size_t f = 0; f < motions.size(); ++f) {
+    FragmentMotion& m = motions[f];
+    if (m.fixed || !(mass[f] > 0)) {
+      m.velocity.setZero();
+      m.spin.setZero();
+      continue;
+    }
+    m.inverseInertia = inertia[f].inverse();
+    m.spin = m.inverseInertia * m.spin;
+    if (before.size() == motions.size()) m.pressed = before[f].pressed;
+  }
+}
+
+template <class Real>
+void moveMotions(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity) {
+  assert(kick >= 0 && step >= 0);
+  for (FragmentMotion& m : body.motions) {
+    m.pressed = std::exchange(m.pressing, 0);
+    if (!m.fixed) {
+      m.velocity += kick * (m.inverseMass * m.force + gravity);
+      m.spin += kick * (m.inverseInertia * m.torque);
+      m.centre += step * m.velocity;
+    }
+    m.force.setZero();
+    m.torque.setZero();
+  }
+}
+
+double withheld(double inelastic, double parting, double jolt) {
+  assert(inelastic >= 0 && inelastic <= 1 && jolt >= 0);
+  if (!(parting > 0)) return 0;
+  return inelastic * std::min(1.0, parting / std::max(kRestingSpeed, 0.25 * jolt));
+}
+
+template void beginMotions(Body<float>&);
+template void beginMotions(Body<double>&);
+template void moveMotions(Body<float>&, double, double, const Eigen::Vector3d&);
+template void moveMotions(Body<double>&, double, double, const Eigen::Vector3d&);
+
+}  // namespace rubble::edem

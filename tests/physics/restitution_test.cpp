@@ -1,0 +1,104 @@
+// How high things bounce: Poisson's hypothesis, a blow gives back e^2 of its energy.
+#include "edem/fragment_motion.h"
+#include "physics/bodies.h"
+
+namespace rubble::test {
+namespace {
+
+// How high the centre of a block comes back after a fall of `height` on a plane, above where it was when the
+// block touched the plane [m]. Its lowest corner is the origin.
+template <class Real>
+double bounce(edem::BodyDef def, double restitution, double height, double tilt = 0) {
+  def.material.restitution = restitution;
+  def.transform = Eigen::Translation3d(0, height, 0) * Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitZ());
+  const auto solver = makeSolver<Real>(false);
+  const std::uint32_t id = solver->addBody(def, kNoGravity);
+  edem::RigidProxy ground;
+  edem::Collider plane;
+  plane.kind = edem::Collider::Kind::Plane;
+  plane.size = Eigen::Vector3d::UnitY();
+  ground.parts = {plane};
+  ground.restitution = 1;
+  std::vector<edem::RigidProxy> proxies = {ground};
+  double highest = 0;
+  bool fell = false;
+  const auto centre = [&] {
+    double y = 0;
+    for (std::size_t i = 0; i < def.asset->elementCount(); ++i) y += solver->position(id, i).y();
+    return y / double(def.asset->elementCount());
+  };
+  const double touching = centre() - height;
+  const int ticks = int(3 * std::sqrt(2 * height / 9.81) * 240);
+  for (int t = 0; t < ticks; ++t) {
+    solver->tick(1.0 / 240, kGravity, proxies);
+    fell = fell || proxies[0].contactWeight > 0;
+    // Not in the tick of the landing, at whose end it may not have come down yet.
+    if (fell && !(proxies[0].contactWeight > 0)) highest = std::max(highest, centre() - touching);
+  }
+  EXPECT_TRUE(fell);
+  return highest;
+}
+
+template <class Real>
+class Restitution : public ::testing::Test {};
+TYPED_TEST_SUITE(Restitution, Scalars);
+
+TYPED_TEST(Restitution, OneElementGivesBackItsSquare) {
+  for (const double e : {0.0, 0.3, 0.5, 0.8, 1.0})
+    EXPECT_NEAR(bounce<TypeParam>(block({1, 1, 1}), e, 1), e * e, 0.01 + 0.02 * e * e) << e;
+}
+
+TYPED_TEST(Restitution, BlockOfNoneHardlyBounces) {
+  edem::BodyDef def = block({4, 4, 4}, false, 0.1);
+  def.material.springDamping = 0.03;
+  def.material.contactDamping = 0.3;
+  def.material.friction = 0.6;
+  EXPECT_LT(bounce<TypeParam>(def, 0, 1), 0.05);
+  // Without it half of the energy comes back from the block's own springs.
+  EXPECT_GT(bounce<TypeParam>(def, 1, 1), 0.3);
+}
+
+TYPED_TEST(Restitution, BlockThatLandsOnItsEdgeHardlyBounces) {
+  edem::BodyDef def = block({4, 4, 4}, false, 0.1);
+  def.material.springDamping = 0.03;
+  def.material.contactDamping = 0.3;
+  def.material.friction = 0.6;
+  // Landing, its centre is 0.26 high; it topples about the edge, over the half diagonal of 0.28 at most.
+  EXPECT_LT(bounce<TypeParam>(def, 0, 1, 0.4), 0.05);
+}
+
+TEST(Withheld, NothingIsWithheldWhileABlowComes) {
+  EXPECT_EQ(edem::withheld(1, -3, 0), 0);
+  EXPECT_EQ(edem::withheld(1, 0, 0), 0);
+  EXPECT_EQ(edem::withheld(0.75, 3, 0.1), 0.75);
+  EXPECT_NEAR(edem::withheld(0.75, 0.01, 0), 0.375, 1e-12);
+  EXPECT_NEAR(edem::withheld(0.75, 0.5, 4), 0.375, 1e-12) << "trembling of the contacts themselves";
+}
+
+TYPED_TEST(Restitution, LeavesTheBlowAsItIs) {
+  // Up to the greatest depth the motion is the same, to the last bit.
+  std::vector<double> depth[2];
+  for (const int e : {0, 1}) {
+    edem::BodyDef def = block({1, 1, 1});
+    def.material.restitution = e;
+    def.velocity = Eigen::Vector3d(0, -3, 0);
+    const auto solver = makeSolver<TypeParam>(false);
+    solver->addBody(def, kNoGravity);
+    edem::RigidProxy ground;
+    edem::Collider plane;
+    plane.kind = edem::Collider::Kind::Plane;
+    plane.size = Eigen::Vector3d::UnitY();
+    ground.parts = {plane};
+    ground.restitution = 1;
+    std::vector<edem::RigidProxy> proxies = {ground};
+    while (solver->velocity(0, 0).y() < 0) {
+      depth[e].push_back(solver->position(0, 0).y());
+      solver->tick(1e-4, kNoGravity, proxies);
+    }
+  }
+  EXPECT_EQ(depth[0], depth[1]);
+  EXPECT_GT(depth[0].size(), 10u);
+}
+
+}  // namespace
+}  // namespace rubble::test
