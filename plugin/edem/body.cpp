@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "edem/frames.h"
 #include "edem/grid.h"
 #include "edem/stable_step.h"
 #include "rubble/error.h"
@@ -233,8 +234,11 @@ void makeState(Body<Real>& body, const BodyDef& def) {
   const std::size_t n = body.elementCount();
   const Vec3<Real> zero = Vec3<Real>::Zero();
   for (auto* v : {&body.displacement, &body.velocityCarry, &body.force, &body.torque, &body.dampingForce,
-                  &body.dampingTorque, &body.rest, &body.position})
+                  &body.dampingTorque})
     v->assign(n, zero);
+  for (auto* v : {&body.rest, &body.position}) v->assign(n, Vec3<double>::Zero());
+  body.frames = {{body.origin, body.turn}};
+  body.frameOf.assign(n, 0);
   body.rotation.assign(n, Quat<Real>::Identity());
   body.spin.assign(n, def.spin.cast<Real>());
   body.velocity.resize(n);
@@ -271,58 +275,14 @@ Body<Real> makeBody(const BodyDef& def, std::uint32_t id) {
   makeSprings(body, def);
   makeContact(body);
   makeState(body, def);
-  turnRest(body);
+  turnRest(body, 0);
   makeDashpots(body);
   indexSprings(body);
   makePairs(body);
   body.criterion = makeCriterion<Real>(def.material, def.model);
   labelFragments(body);
+  splitFrames(body);
   return body;
-}
-
-template <class Real>
-void turnRest(Body<Real>& body) {
-  const Eigen::Matrix3d turn = body.turn.toRotationMatrix();
-  for (std::size_t i = 0; i < body.elementCount(); ++i)
-    body.rest[i] = (turn * body.restCentred[i]).template cast<Real>();
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    body.springs[s].rest = (turn * body.springRest[s]).template cast<Real>();
-    body.springs[s].offset = (turn * body.springOffset[s]).template cast<Real>();
-  }
-}
-
-template <class Real>
-void fitFrame(Body<Real>& body) {
-  if (body.anchorsIntact > 0) return;
-  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  double total = 0;
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    const Eigen::Vector4d q = body.rotation[i].coeffs().template cast<double>();
-    mean += body.mass[i] * (q.w() < 0 ? Eigen::Vector4d(-q) : q);
-    total += body.mass[i];
-  }
-  if (!(total > 0) || !(mean.norm() > 1e-3 * total)) return;  // nothing left, or no common rotation
-  const Eigen::Quaterniond step(Eigen::Vector4d(mean.normalized()));
-  const Eigen::Quaterniond turn = (step * body.turn).normalized();
-  const Eigen::Matrix3d old = body.turn.toRotationMatrix(), now = turn.toRotationMatrix();
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (body.alive[i])
-      shift +=
-          body.mass[i] * (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i]);
-  }
-  shift /= total;
-  const Quat<Real> back = Quat<Real>(step.conjugate().coeffs().template cast<Real>());
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.displacement[i] =
-        (body.displacement[i].template cast<double>() + (old - now) * body.restCentred[i] - shift)
-            .template cast<Real>();
-    body.rotation[i] = (body.rotation[i] * back).normalized();
-  }
-  body.origin += shift;
-  body.turn = turn;
-  turnRest(body);
 }
 
 template <class Real>
@@ -350,10 +310,6 @@ template struct Body<float>;
 template struct Body<double>;
 template Body<float> makeBody(const BodyDef&, std::uint32_t);
 template Body<double> makeBody(const BodyDef&, std::uint32_t);
-template void turnRest(Body<float>&);
-template void turnRest(Body<double>&);
-template void fitFrame(Body<float>&);
-template void fitFrame(Body<double>&);
 template std::uint32_t labelFragments(Body<float>&);
 template std::uint32_t labelFragments(Body<double>&);
 

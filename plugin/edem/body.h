@@ -1,11 +1,14 @@
 // The state of one destructible body: plain arrays, copyable, nothing but numbers.
 //
 // Floats hold displacements, never absolute positions: at 30 GPa a float position is noise three metres from
-// the origin. So a body has a rigid frame (origin, turn; in double) and an element is where
-//     x_I = origin + turn X_I + u_I,   R_I = R'_I turn
-// with X_I its rest position about the centre of mass. The frame stands still during a tick; fitFrame moves
-// it to the body's best rigid motion between ticks, and the springs' rest vectors turn with it. All vectors
-// are in world axes.
+// the origin. So every fragment has a rigid frame f (origin, turn; in double), and an element of it is where
+//     x_I = origin_f + turn_f X_I + u_I,   R_I = R'_I turn_f
+// with X_I its rest position about the body's centre of mass. Frames stand still during a tick; between ticks
+// frames.h gives new fragments frames of their own and moves each to its fragment's best rigid motion, and
+// the springs' rest vectors turn with it. A spring joins elements of one frame: one that breaks works in it
+// to the end of its tick. Frame 0 is where the body was made. It never moves and holds what an anchor holds,
+// and crushed elements. Positions are in double, for those of two frames meet in contacts. All vectors are in
+// world axes.
 #pragma once
 
 #include <memory>
@@ -61,6 +64,12 @@ struct FragmentMotion {
   }
 };
 
+/// A rigid motion that displacements are from.
+struct Frame {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+};
+
 template <class Real>
 struct Body {
   std::uint32_t id = 0;
@@ -91,9 +100,13 @@ struct Body {
   ContactSide contact;  ///< of an element of mean mass; k_n = contactStiffness E h
   Real radius = 0;
 
-  // State.
+  // Frame 0, constant; `position` and `rest` are relative to this origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+
+  // State.
+  std::vector<Frame> frames;             ///< frame 0, then one of each fragment without anchors
+  std::vector<std::uint32_t> frameOf;    ///< each element's, into `frames`
   std::vector<Vec3<Real>> displacement;  ///< u_I [m]
   std::vector<Quat<Real>> rotation;      ///< R'_I
   std::vector<Vec3<Real>> velocity;      ///< at the half step before the positions [m/s]
@@ -116,11 +129,11 @@ struct Body {
   bool asleep = false;
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
 
-  // Derived from the frame; written by turnRest.
-  std::vector<Vec3<Real>> rest;  ///< turn X_I [m]
+  // Derived from the frames; written by turnRest.
+  std::vector<Vec3<double>> rest;  ///< origin_f + turn_f X_I, relative to origin [m]
 
   // Work space of a substep.
-  std::vector<Vec3<Real>> position;                     ///< rest + u, relative to origin [m]
+  std::vector<Vec3<double>> position;                   ///< rest + u, relative to origin [m]
   std::vector<Vec3<Real>> force, torque;                ///< all [N], [N m]
   std::vector<Vec3<Real>> dampingForce, dampingTorque;  ///< the part of force and torque that is lost energy
   std::vector<Real> load;                               ///< W_I, eq. (3) [J]
@@ -132,7 +145,11 @@ struct Body {
 
   std::size_t elementCount() const { return mass.size(); }
   Eigen::Vector3d worldPosition(std::size_t i) const {
-    return origin + (turn * restCentred[i] + displacement[i].template cast<double>());
+    const Frame& frame = frames[frameOf[i]];
+    return frame.origin + (frame.turn * restCentred[i] + displacement[i].template cast<double>());
+  }
+  Eigen::Quaterniond orientation(std::size_t i) const {
+    return rotation[i].template cast<double>() * frames[frameOf[i]].turn;
   }
   SpringEnd<Real> end(std::uint32_t i) const { return {displacement[i], rotation[i], velocity[i], spin[i]}; }
   bool isAnchor(std::size_t spring) const { return spring >= anchorBegin; }
@@ -142,16 +159,6 @@ struct Body {
 /// constant.
 template <class Real>
 Body<Real> makeBody(const BodyDef& def, std::uint32_t id);
-
-/// Writes `rest` and the springs' rest vectors from the frame.
-template <class Real>
-void turnRest(Body<Real>& body);
-
-/// Moves the frame of a body without anchors to its best rigid motion (mean rotation, mean position;
-/// mass-weighted) and expresses the displacements and rotations in it. Positions, velocities and energies
-/// stay what they are.
-template <class Real>
-void fitFrame(Body<Real>& body);
 
 /// The end of spring s that is not `first`: the partner's motion, or a fixed point for an anchor.
 template <class Real>

@@ -32,7 +32,7 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
   const std::uint32_t i = body.springs[s].first;
   const Vec3<Real> force = load.elastic + load.damping;
   const Vec3<Real> torque = load.armFirst.cross(force) + load.elasticTorque + load.dampingTorque;
-  const Eigen::Vector3d arm = body.origin - books.centre + body.position[i].template cast<double>();
+  const Eigen::Vector3d arm = body.origin - books.centre + body.position[i];
   books.anchors.push(signedKick, force.template cast<double>(), arm, torque.template cast<double>());
 }
 
@@ -41,7 +41,7 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
 template <class Real>
 void beginSubstep(Body<Real>& body) {
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.position[i] = body.rest[i] + body.displacement[i];
+    body.position[i] = body.rest[i] + body.displacement[i].template cast<double>();
     body.force[i].setZero();
     body.torque[i].setZero();
     body.dampingForce[i].setZero();
@@ -122,7 +122,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
     books.fracture += energy + 0.5 * kick * double(load.power);
 
     const Eigen::Vector3d at =
-        body.origin + (body.position[spring.first] + load.armFirst).template cast<double>();
+        body.origin + body.position[spring.first] + load.armFirst.template cast<double>();
     report.broken.push_back({body.id, s, body.overloadMode[k], energy, at});
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, -kick, books);
@@ -132,7 +132,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
         held = held || (body.isAnchor(body.springsOf[q]) && body.intact[body.springsOf[q]]);
       if (!held) body.anchored[spring.first] = 0;
     } else {
-      const Real distance = (body.position[spring.second] - body.position[spring.first]).norm();
+      const Real distance = Real((body.position[spring.second] - body.position[spring.first]).norm());
       body.range[s] = std::fmin(Real(2) * body.radius, distance);
       if (!body.model.contactBesideSpring) lists.addBroken(place, {spring.first, spring.second, s});
     }

@@ -35,7 +35,7 @@ Quat<Real> rotated(const Quat<Real>& q, const Vec3<Real>& w, Real h) {
 
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
-               std::span<const Vec3<Real>> listed, Books& books) {
+               std::span<const Vec3<double>> listed, Books& books) {
   assert(std::isfinite(kick) && kick >= 0 && std::isfinite(step) && step >= 0);
   assert(listed.size() == body.elementCount());
   const Real kickTime = Real(kick), stepTime = Real(step);
@@ -51,17 +51,17 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
     body.velocity[i] = addCompensated<Real>(
         oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall, body.velocityCarry[i]);
     body.spin[i] = oldSpin + (kickTime * body.inverseInertia[i]) * body.torque[i];
-    const Vec3<Real> position = body.position[i];
     body.displacement[i] += stepTime * body.velocity[i];
     body.rotation[i] = rotated(body.rotation[i], body.spin[i], stepTime);
-    const Real moved2 = (body.rest[i] + body.displacement[i] - listed[i]).squaredNorm();
+    const Vec3<double> moved = body.rest[i] + body.displacement[i].template cast<double>() - listed[i];
+    const Real moved2 = Real(moved.squaredNorm());
     furthest2 = moved2 > furthest2 || !(moved2 == moved2) ? moved2 : furthest2;
 
     const double m = body.mass[i], inertia = body.inertia[i];
     const Eigen::Vector3d v0 = oldVelocity.template cast<double>(),
                           v1 = body.velocity[i].template cast<double>();
     const Eigen::Vector3d w0 = oldSpin.template cast<double>(), w1 = body.spin[i].template cast<double>();
-    const Eigen::Vector3d x = position.template cast<double>();
+    const Eigen::Vector3d x = body.position[i];
     mass += m;
     before += m * v0;
     after += m * v1;
@@ -99,7 +99,7 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
     c.centre = body.worldPosition(i);
     c.velocity = body.velocity[i].template cast<double>();
     c.spin = body.spin[i].template cast<double>();
-    c.orientation = body.rotation[i].template cast<double>() * body.turn;
+    c.orientation = body.orientation(i);
     c.mass = body.mass[i];
     c.inertia = body.inertia[i];
     c.volume = body.asset->volumes[i];
@@ -135,7 +135,7 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
   }
 }
 
-template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<float>>,
+template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<double>>,
                          Books&);
 template double integrate(Body<double>&, double, double, const Eigen::Vector3d&,
                           std::span<const Vec3<double>>, Books&);

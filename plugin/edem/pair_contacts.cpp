@@ -33,15 +33,15 @@ Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b,
 }
 
 template <class Real>
-PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<Real>& offset, Body<Real>& a,
-                          Body<Real>& b, const Steps& steps, ContactMemory<Real>& memory) {
+PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<double>& offset,
+                          Body<Real>& a, Body<Real>& b, const Steps& steps, ContactMemory<Real>& memory) {
   PairTouch<Real> touch;
   const Real moved = Real(steps.moved), next = Real(steps.next);
   const PairEntry& entry = list.entries[k];
   const std::uint32_t i = entry.first, j = entry.second;
   assert(i < a.elementCount() && j < b.elementCount());
   if (!a.alive[i] || !b.alive[j]) return touch;
-  const Vec3<Real> between = (b.position[j] - a.position[i]) + offset;
+  const Vec3<Real> between = ((b.position[j] - a.position[i]) + offset).template cast<Real>();
   const Real distance2 = between.squaredNorm();
   const Real free = a.radius + b.radius;
   if (distance2 >= free * free) {
@@ -100,18 +100,13 @@ void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body
   b.dampingTorque[j] += touch.armSecond.cross(damping) + dampingTorque;
 }
 
-template <class Real>
-Vec3<Real> offsetBetween(const Body<Real>& a, const Body<Real>& b) {
-  return (b.origin - a.origin).template cast<Real>();
-}
-
 }  // namespace
 
 template <class Real>
 void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
                         Books& books) {
   assert(list.memory.size() == list.entries.size() && steps.moved >= 0 && steps.next >= 0);
-  const Vec3<Real> offset = offsetBetween(a, b);
+  const Vec3<double> offset = b.origin - a.origin;
   list.elastic = 0;
   double slipped = 0;
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
@@ -146,7 +141,7 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
 template <class Real>
 void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
                      Books& books) {
-  const Vec3<Real> offset = offsetBetween(a, b);
+  const Vec3<double> offset = b.origin - a.origin;
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
     if (!entry.touching || (!a.leaving[entry.first] && !b.leaving[entry.second])) continue;

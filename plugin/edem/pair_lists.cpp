@@ -43,12 +43,12 @@ void remember(PairList<Real>& list, const PairList<Real>* old) {
 }  // namespace
 
 template <class Real>
-void PairLists<Real>::grid(const Body<Real>& body, ElementGrid<Real>& out) const {
+void PairLists<Real>::grid(const Body<Real>& body, ElementGrid& out) const {
   out.listed = body.position;
-  out.grid.build(out.listed, body.alive, Real(2) * body.radius + Real(m_skin));
+  out.grid.build(out.listed, body.alive, 2 * double(body.radius) + m_skin);
   out.bounds.setEmpty();
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i]) out.bounds.extend(body.origin + out.listed[i].template cast<double>());
+    if (body.alive[i]) out.bounds.extend(body.origin + out.listed[i]);
 }
 
 // The old list of two bodies, or a new one.
@@ -100,9 +100,9 @@ void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies,
 
 template <class Real>
 void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list) {
-  const ElementGrid<Real>& own = m_grids[place];
-  const Real distance = Real(2) * body.radius + Real(m_skin);
-  const Real distance2 = distance * distance;
+  const ElementGrid& own = m_grids[place];
+  const double distance = 2 * double(body.radius) + m_skin;
+  const double distance2 = distance * distance;
   const PairList<Real> old = list;
   list.entries.clear();
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
@@ -127,18 +127,16 @@ void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, Pa
 
 template <class Real>
 void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list) {
-  const ElementGrid<Real>&gridA = m_grids[list.first], &gridB = m_grids[list.second];
-  const Vec3<Real> offset = (a.origin - b.origin).template cast<Real>();  // a's coordinates -> b's
-  const Real distance = a.radius + b.radius + Real(m_skin);
-  const Vec3<Real> reach = Vec3<Real>::Constant(distance);
+  const ElementGrid &gridA = m_grids[list.first], &gridB = m_grids[list.second];
+  const Vec3<double> offset = a.origin - b.origin;  // a's coordinates -> b's
+  const double distance = double(a.radius) + double(b.radius) + m_skin;
+  const Vec3<double> reach = Vec3<double>::Constant(distance);
   const PairList<Real> old = list;
   list.entries.clear();
   for (std::uint32_t i = 0; i < a.elementCount(); ++i) {
     if (!a.alive[i]) continue;
-    if (gridB.bounds.squaredExteriorDistance(a.origin + gridA.listed[i].template cast<double>()) >
-        double(distance) * double(distance))
-      continue;
-    const Vec3<Real> p = gridA.listed[i] + offset;
+    if (gridB.bounds.squaredExteriorDistance(a.origin + gridA.listed[i]) > distance * distance) continue;
+    const Vec3<double> p = gridA.listed[i] + offset;
     gridB.grid.visitBox(p - reach, p + reach, [&](std::uint32_t j) {
       if ((gridB.listed[j] - p).squaredNorm() < distance * distance) list.entries.push_back({i, j, kNoPair});
     });

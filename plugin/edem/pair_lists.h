@@ -32,11 +32,10 @@ struct PairList {
 };
 
 /// Per body: the grid over its elements at the last listing.
-template <class Real>
 struct ElementGrid {
-  Grid<Real> grid;
-  std::vector<Vec3<Real>> listed;  ///< positions at the last listing, relative to the body's origin [m]
-  Eigen::AlignedBox3d bounds;      ///< of the listed centres, world [m]
+  Grid<double> grid;
+  std::vector<Vec3<double>> listed;  ///< positions at the last listing, relative to the body's origin [m]
+  Eigen::AlignedBox3d bounds;        ///< of the listed centres, world [m]
 };
 
 template <class Real>
@@ -52,17 +51,17 @@ class PairLists {
 
   std::span<PairList<Real>> lists() { return m_lists; }
   std::span<const PairList<Real>> lists() const { return m_lists; }
-  const ElementGrid<Real>& grid(std::size_t body) const { return m_grids[body]; }
+  const ElementGrid& grid(std::size_t body) const { return m_grids[body]; }
   double skin() const { return m_skin; }
 
  private:
-  void grid(const Body<Real>& body, ElementGrid<Real>& out) const;
+  void grid(const Body<Real>& body, ElementGrid& out) const;
   PairList<Real> take(const Body<Real>& a, const Body<Real>& b, std::uint32_t placeA, std::uint32_t placeB);
   void listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list);
   void listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list);
 
   double m_skin = 0;
-  std::vector<ElementGrid<Real>> m_grids;
+  std::vector<ElementGrid> m_grids;
   std::vector<PairList<Real>> m_lists;  // m_lists[place] is within body `place`; those between bodies behind
   std::vector<PairList<Real>> m_old;    // of the last build
 };

@@ -121,7 +121,7 @@ template <class Real>
 void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
                                    const PairLists<Real>& lists) {
   const RigidProxy& proxy = m_proxies[p];
-  const ElementGrid<Real>& own = lists.grid(place);
+  const ElementGrid& own = lists.grid(place);
   // From now on the element may move a whole skin (from one side of its listed place to the other) and the
   // proxy half.
   const double reach = double(body.radius) + 1.5 * lists.skin();
@@ -137,14 +137,13 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
   const auto consider = [&](std::uint32_t i) {
     if (!body.alive[i]) return;
     if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
-    const Eigen::Vector3d x = body.origin + body.position[i].template cast<double>();
+    const Eigen::Vector3d x = body.origin + body.position[i];
     if (nearestPart(proxy, x).distance >= reach) return;
     Candidate candidate{p, place, i, false, {}, 0};
     remember(candidate);
     m_candidates.push_back(candidate);
   };
-  const Vec3<Real> low = (box.min() - body.origin).template cast<Real>();
-  const Vec3<Real> high = (box.max() - body.origin).template cast<Real>();
+  const Vec3<double> low = box.min() - body.origin, high = box.max() - body.origin;
   if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
     for (std::uint32_t i = 0; i < body.elementCount(); ++i) consider(i);
   } else {
@@ -165,7 +164,7 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
     const RigidProxy& proxy = m_proxies[c.proxy];
     if (!proxy.isDynamic()) continue;
     const Body<Real>& body = *bodies[c.body];
-    const Eigen::Vector3d x = body.origin + body.position[c.element].template cast<double>();
+    const Eigen::Vector3d x = body.origin + body.position[c.element];
     const double mobility =
         proxy.inverseMass + (x - proxy.position).squaredNorm() * proxy.inverseInertia.maxCoeff();
     m_states[c.proxy].mobility += mobility;
@@ -214,7 +213,7 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   const std::uint32_t i = c.element;
   if (!body.alive[i]) return false;
   const RigidProxy& proxy = m_proxies[c.proxy];
-  out.x = body.origin + body.position[i].template cast<double>();
+  out.x = body.origin + body.position[i];
   const SurfacePoint surface = nearestPart(proxy, out.x);
   const double radius = double(body.radius);
   if (surface.distance >= radius) {

@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
+#include "edem/frames.h"
 #include "edem/pair_lists.h"
 #include "edem/prestress.h"
 #include "edem/rigid_contacts.h"
@@ -93,8 +94,7 @@ class SolverOf final : public Solver {
     return of(id).spin[i].template cast<double>();
   }
   Eigen::Quaterniond orientation(std::uint32_t id, std::size_t i) const override {
-    const Body<Real>& b = of(id);
-    return b.rotation[i].template cast<double>() * b.turn;
+    return of(id).orientation(i);
   }
   Eigen::AlignedBox3d bounds(std::uint32_t id) const override {
     const Body<Real>& b = of(id);
@@ -154,8 +154,11 @@ class SolverOf final : public Solver {
       hash.add(std::as_bytes(std::span<const Quat<Real>>(b->rotation)));
       hash.add(std::as_bytes(std::span<const std::uint8_t>(b->alive)));
       hash.add(std::as_bytes(std::span<const std::uint8_t>(b->intact)));
-      hash.add(std::as_bytes(std::span<const double>(b->origin.data(), 3)));
-      hash.add(std::as_bytes(std::span<const double>(b->turn.coeffs().data(), 4)));
+      hash.add(std::as_bytes(std::span<const std::uint32_t>(b->frameOf)));
+      for (const Frame& f : b->frames) {
+        hash.add(std::as_bytes(std::span<const double>(f.origin.data(), 3)));
+        hash.add(std::as_bytes(std::span<const double>(f.turn.coeffs().data(), 4)));
+      }
     }
     return hash.value();
   }
@@ -302,7 +305,7 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
       continue;
     }
     const Real moved2 =
-        integrate(body, kick, step, gravity, std::span<const Vec3<Real>>(m_lists.grid(b).listed), m_books);
+        integrate(body, kick, step, gravity, std::span<const Vec3<double>>(m_lists.grid(b).listed), m_books);
     if (!std::isfinite(moved2))
       m_failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
     moveMotions(body, kick, step, gravity);
@@ -382,12 +385,13 @@ void SolverOf<Real>::closeTick(double dt) {
     if (body->asleep) continue;
     const bool broke = std::any_of(m_report.broken.begin(), m_report.broken.end(),
                                    [&](const BrokenSpring& s) { return s.body == body->id; });
-    if (broke) labelFragments(*body);
+    if (broke) {
+      labelFragments(*body);
+      splitFrames(*body);
+    }
     const double damping = std::max(body->massDamping, body->settleDamping);
     if (damping > 0) dampDeformation(*body, damping, dt, m_books);
-    fitFrame(*body);
-    // The frame may have moved, and listed positions are relative to it.
-    m_listsStale = true;
+    fitFrames(*body);
   }
 }
 
@@ -433,7 +437,7 @@ void SolverOf<Real>::bookLeaving(const Body<Real>& body, std::uint32_t place) {
   double elastic = accumulateSprings(copy, 0, false, probe);
   for (const PairList<Real>& l : m_lists.lists())
     if (l.first == place || l.second == place) elastic += l.elastic;
-  integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<Real>>(copy.position), probe);
+  integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<double>>(copy.position), probe);
   m_books.leftMass += probe.mass;
   m_books.leftKinetic += probe.kinetic;
   m_books.leftElastic += elastic;

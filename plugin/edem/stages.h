@@ -65,7 +65,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
 /// [m^2], NaN if anything is not finite.
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
-               std::span<const Vec3<Real>> listed, Books& books);
+               std::span<const Vec3<double>> listed, Books& books);
 
 /// Leaving elements leave, with their share of the energy of report.broken[brokenBegin..].
 template <class Real>

@@ -87,7 +87,7 @@ class OneBody {
     m_books.mass = m_books.kinetic = 0;
     m_books.linear.setZero();
     m_books.angular.setZero();
-    using Points = std::span<const edem::Vec3<Real>>;
+    using Points = std::span<const edem::Vec3<double>>;
     edem::integrate(b, step, step, kNoGravity, Points(m_lists.grid(0).listed), m_books);
   }
 

@@ -1,0 +1,119 @@
+#include "edem/frames.h"
+
+#include <utility>
+
+namespace rubble::edem {
+namespace {
+
+// How one frame moves.
+struct Fit {
+  double mass = 0;
+  Eigen::Vector4d rotation = Eigen::Vector4d::Zero();  // sum of mass x quaternion
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     // of the origin [m]
+  Eigen::Quaterniond step = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d turnedBack = Eigen::Matrix3d::Zero();  // old turn - new turn
+
+  void add(double m, const Eigen::Quaterniond& q) {
+    mass += m;
+    rotation += (q.w() < 0 ? -m : m) * q.coeffs();
+  }
+  void turn(Eigen::Quaterniond& turn) {
+    // Elements that have no common rotation only take the frame along.
+    if (!(rotation.norm() > 1e-3 * mass)) return;
+    step = Eigen::Quaterniond(Eigen::Vector4d(rotation.normalized()));
+    const Eigen::Matrix3d old = turn.toRotationMatrix();
+    turn = (step * turn).normalized();
+    turnedBack = old - turn.toRotationMatrix();
+  }
+};
+
+// Visits the elements whose frame moves.
+template <class Real, class Visit>
+void visitMoving(const Body<Real>& body, Visit&& visit) {
+  for (std::size_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i] && body.frameOf[i] > 0) visit(i, body.frameOf[i]);
+}
+
+template <class Real>
+void putInFrame0(Body<Real>& body, std::size_t i, const Frame& was) {
+  const Eigen::Vector3d rest = body.turn * body.restCentred[i];
+  const Eigen::Vector3d u = was.turn * body.restCentred[i] + body.displacement[i].template cast<double>();
+  const Eigen::Quaterniond q = body.rotation[i].template cast<double>() * was.turn * body.turn.conjugate();
+  body.displacement[i] = (was.origin - body.origin + (u - rest)).template cast<Real>();
+  body.rotation[i] = Quat<Real>(q.template cast<Real>());
+  body.rest[i] = rest;
+  body.frameOf[i] = 0;
+}
+
+}  // namespace
+
+template <class Real>
+void turnRest(Body<Real>& body, std::size_t first) {
+  std::vector<Eigen::Matrix3d> turns;
+  for (const Frame& frame : body.frames) turns.push_back(frame.turn.toRotationMatrix());
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    const std::uint32_t f = body.frameOf[i];
+    if (f < first) continue;
+    body.rest[i] = body.frames[f].origin - body.origin + turns[f] * body.restCentred[i];
+  }
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    Spring<Real>& spring = body.springs[s];
+    const std::uint32_t f = body.frameOf[spring.first];
+    if (!body.intact[s] || f < first) continue;
+    spring.rest = (turns[f] * body.springRest[s]).template cast<Real>();
+    spring.offset = (turns[f] * body.springOffset[s]).template cast<Real>();
+  }
+}
+
+template <class Real>
+void splitFrames(Body<Real>& body) {
+  std::vector<std::uint8_t> held(body.elementCount(), 0);  // by fragment
+  for (std::size_t s = body.anchorBegin; s < body.springs.size(); ++s)
+    if (body.intact[s]) held[body.fragment[body.springs[s].first]] = 1;
+  const std::vector<Frame> old = std::move(body.frames);
+  body.frames = {{body.origin, body.turn}};
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+    const std::uint32_t root = body.fragment[i];  // not above i: its frame is there
+    const Frame& was = old[body.frameOf[i]];
+    if (root == kNoElement || held[root]) {
+      if (body.frameOf[i] > 0) putInFrame0(body, i, was);
+    } else if (root == i) {
+      body.frameOf[i] = std::uint32_t(body.frames.size());
+      body.frames.push_back(was);
+    } else {
+      body.frameOf[i] = body.frameOf[root];
+    }
+  }
+}
+
+template <class Real>
+void fitFrames(Body<Real>& body) {
+  if (body.frames.size() == 1) return;
+  std::vector<Fit> fits(body.frames.size());
+  visitMoving(body, [&](std::size_t i, std::uint32_t f) {
+    fits[f].add(body.mass[i], Eigen::Quaterniond(body.rotation[i].template cast<double>()));
+  });
+  for (std::size_t f = 1; f < fits.size(); ++f) fits[f].turn(body.frames[f].turn);
+  visitMoving(body, [&](std::size_t i, std::uint32_t f) {
+    const Eigen::Vector3d u = body.displacement[i].template cast<double>();
+    fits[f].shift += body.mass[i] / fits[f].mass * (u + fits[f].turnedBack * body.restCentred[i]);
+  });
+  for (std::size_t f = 1; f < fits.size(); ++f) body.frames[f].origin += fits[f].shift;
+  visitMoving(body, [&](std::size_t i, std::uint32_t f) {
+    const Fit& fit = fits[f];
+    const Eigen::Vector3d u = body.displacement[i].template cast<double>();
+    body.displacement[i] = (u - fit.shift + fit.turnedBack * body.restCentred[i]).template cast<Real>();
+    const Eigen::Quaterniond q = body.rotation[i].template cast<double>() * fit.step.conjugate();
+    body.rotation[i] = Quat<Real>(q.normalized().template cast<Real>());
+  });
+  turnRest(body, 1);
+}
+
+template void turnRest(Body<float>&, std::size_t);
+template void turnRest(Body<double>&, std::size_t);
+template void splitFrames(Body<float>&);
+template void splitFrames(Body<double>&);
+template void fitFrames(Body<float>&);
+template void fitFrames(Body<double>&);
+
+}  // namespace rubble::edem
