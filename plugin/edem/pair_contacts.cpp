@@ -69,7 +69,7 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   const Real speed = -motion.approach.dot(motion.normal);
   if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
   motion.share = touchShare(motion.overlap, speed, next, memory.onset);
-  touch.at = a.origin + (a.position[i] + touch.armFirst).template cast<double>();
+  touch.at = a.origin + a.position[i] + touch.armFirst.template cast<double>();
   const FragmentMotion &fragmentA = a.motions[a.motionOf[i]], &fragmentB = b.motions[b.motionOf[j]];
   if (&fragmentA != &fragmentB) {
     const double parting = (fragmentB.velocityAt(touch.at) - fragmentA.velocityAt(touch.at))

@@ -52,19 +52,39 @@ double RigidProxy::reach() const {
 }
 
 template <class Real>
-void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
+void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books) {
   keepContacts();
   m_proxies = proxies;
-  m_states.resize(proxies.size());
+  std::swap(m_before, m_states);
+  m_states.assign(proxies.size(), {});
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     RigidProxy& proxy = proxies[p];
-    m_states[p].key = proxy.key != 0 ? proxy.key : p + 1;
+    ProxyState& state = m_states[p];
+    state.key = proxy.key != 0 ? proxy.key : p + 1;
+    const auto before = std::find_if(m_before.begin(), m_before.end(),
+                                     [&](const ProxyState& s) { return s.key == state.key; });
+    if (before != m_before.end()) {
+      before->shift = state.shift = proxy.position - before->position;
+      const Eigen::AngleAxisd turn(proxy.orientation * before->orientation.conjugate());
+      before->turn = state.turn = turn.angle() * turn.axis();
+      state.shifted = true;
+      state.pressed = before->size;
+      bookShift(*before, books);
+    }
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();
     proxy.contactPoint.setZero();
     proxy.contactWeight = 0;
     proxy.touched.clear();
   }
+}
+
+// Between two ticks the host's own contacts and joints move a body. What that does to the springs of its contacts
+// is work of the host: half of it at the forces before, half at those after.
+template <class Real>
+void RigidContacts<Real>::bookShift(const ProxyState& state, Books& books) const {
+  const Eigen::Vector3d force = state.force - state.dampingForce, torque = state.torque - state.dampingTorque;
+  books.bullet.work.add(-0.5 * (force.dot(state.shift) + torque.dot(state.turn)), 0);
 }
 
 template <class Real>
@@ -317,6 +337,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       proxy.touched.push_back(body.id);
   }
   books.dissipated.add(-slipped, 0);
+  for (ProxyState& s : m_states)
+    if (std::exchange(s.shifted, false)) bookShift(s, books);
 }
 
 template <class Real>
@@ -365,6 +387,8 @@ void RigidContacts<Real>::integrate(double kick, double step, Books& books) {
       proxy.orientation =
           (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
               .normalized();
+    m_states[p].position = proxy.position;
+    m_states[p].orientation = proxy.orientation;
   }
 }
 

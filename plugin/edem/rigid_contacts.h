@@ -20,7 +20,7 @@ class RigidContacts {
   using Bodies = std::span<const std::unique_ptr<Body<Real>>>;
 
   /// Takes the proxies of a new tick; what contacts remember stays.
-  void beginTick(std::span<RigidProxy> proxies);
+  void beginTick(std::span<RigidProxy> proxies, Books& books);
   /// Lists the elements within r + skin of each proxy. Holds until elements or proxies moved half the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);
   /// True when a proxy has moved more than half the skin since build.
@@ -73,8 +73,14 @@ class RigidContacts {
   };
   struct ProxyState {
     std::uint64_t key = 0;
-    Eigen::Vector3d force, torque;                // on the rigid body in this substep
-    Eigen::Vector3d dampingForce, dampingTorque;  // the part of it that is lost energy
+    // Where the last tick left it; then, how far the host has moved it since.
+    Eigen::Vector3d position = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // rotation vector [rad]
+    bool shifted = false;
+    // On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+    Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
     double size = 0;                              // sum of |force| [N]
     double pressed = 0;                           // the same in the last substep [N]
     Eigen::Vector3d listedPosition;
@@ -93,6 +99,7 @@ class RigidContacts {
   };
 
   void keepContacts();
+  void bookShift(const ProxyState& state, Books& books) const;
   void endContacts(Bodies bodies);
   void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
                 const PairLists<Real>& lists);
@@ -102,7 +109,7 @@ class RigidContacts {
   void add(const Touch& touch, const Candidate& candidate, Body<Real>& body, double sign);
 
   std::span<RigidProxy> m_proxies;
-  std::vector<ProxyState> m_states;
+  std::vector<ProxyState> m_states, m_before;  // of this tick, of the last
   std::vector<Candidate> m_candidates;  // rising in (proxy, body, element)
   std::vector<std::uint32_t> m_ids;     // of the bodies, by place, at the last build
   std::vector<Kept> m_kept;             // between two lists, and while their body sleeps

@@ -238,7 +238,7 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   m_report.warning.clear();
   if (!std::isfinite(dt)) m_failure = "the time step is not finite";
   if (!m_failure.empty() || !(dt > 0)) return;
-  m_rigid.beginTick(proxies);
+  m_rigid.beginTick(proxies, m_books);
   m_stepLength.beginTick(m_bodies);
   for (auto& body : m_bodies)
     if (!body->asleep || body->motions.empty()) beginMotions(*body);
