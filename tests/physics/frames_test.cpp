@@ -141,6 +141,7 @@ TYPED_TEST(Frames, FragmentsMeetFarAwayAsTheyDoNear) {
     Halves<TypeParam> pair;
     edem::BodyDef def = halves(false);
     def.material.springDamping = def.material.contactDamping = 0;
+    def.material.restitution = 1;
     pair.add(def);
     pair.push(false, {-0.1, flight, 0});
     pair.push(true, {0.1, flight, 0});
