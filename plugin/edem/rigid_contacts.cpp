@@ -79,8 +79,8 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books)
   }
 }
 
-// Between two ticks the host's own contacts and joints move a body. What that does to the springs of its contacts
-// is work of the host: half of it at the forces before, half at those after.
+// Between two ticks the host's own contacts and joints move a body. What that does to the springs of its
+// contacts is work of the host: half of it at the forces before, half at those after.
 template <class Real>
 void RigidContacts<Real>::bookShift(const ProxyState& state, Books& books) const {
   const Eigen::Vector3d force = state.force - state.dampingForce, torque = state.torque - state.dampingTorque;

@@ -81,8 +81,8 @@ class RigidContacts {
     // On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
     Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
-    double size = 0;                              // sum of |force| [N]
-    double pressed = 0;                           // the same in the last substep [N]
+    double size = 0;     // sum of |force| [N]
+    double pressed = 0;  // the same in the last substep [N]
     Eigen::Vector3d listedPosition;
     Eigen::Quaterniond listedOrientation;
     double mobility = 0;                   // sum over candidates of speed / impulse [1/kg]
@@ -110,10 +110,10 @@ class RigidContacts {
 
   std::span<RigidProxy> m_proxies;
   std::vector<ProxyState> m_states, m_before;  // of this tick, of the last
-  std::vector<Candidate> m_candidates;  // rising in (proxy, body, element)
-  std::vector<std::uint32_t> m_ids;     // of the bodies, by place, at the last build
-  std::vector<Kept> m_kept;             // between two lists, and while their body sleeps
-  std::vector<ContactSide> m_sides;     // of the bodies, by place
+  std::vector<Candidate> m_candidates;         // rising in (proxy, body, element)
+  std::vector<std::uint32_t> m_ids;            // of the bodies, by place, at the last build
+  std::vector<Kept> m_kept;                    // between two lists, and while their body sleeps
+  std::vector<ContactSide> m_sides;            // of the bodies, by place
   double m_elastic = 0;
   double m_lost = 0;  // energy of contacts that ended between two substeps [J]
 };

@@ -199,7 +199,8 @@ TEST_F(Program, MemoryThatIsNotThereIsExitCode1) {
 // A block of foam that meets one of stone a hundred thousand times as stiff: the substep does not cover that
 // contact, and the foam's numbers run away.
 TEST_F(Program, ARunThatGoesWrongIsExitCode3AndNamesTheObject) {
-  // Stiff contacts: the block alone needs the substeps that its refusal names, and more of them on the ground.
+  // Stiff contacts: the block alone needs the substeps that its refusal names, and more of them on the
+  // ground.
   const auto scene = [](const std::string& substeps) {
     return R"({"frames": 30, "breaking": false, "statics": [{"shape": "plane"}], "max_substeps_per_frame": )" +
            substeps + R"(, "objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 0.3, 0], "elements": 128,

@@ -25,7 +25,7 @@ struct Material {
   double friction = 0.6;          ///< Coulomb mu of contacts
   /// e of a blow; a contact has the product of both bodies', as Bullet has it. 0 to 1.
   double restitution = 0;
-  double rollingFriction = 0.5;   ///< mu_r of rolling and twisting, in radii of curvature, 0 to 1
+  double rollingFriction = 0.5;  ///< mu_r of rolling and twisting, in radii of curvature, 0 to 1
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
   /// Share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen.
