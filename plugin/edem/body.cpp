@@ -303,6 +303,7 @@ std::uint32_t labelFragments(Body<Real>& body) {
     root[i] = body.alive[i] ? find(i) : kNoElement;
     if (root[i] == i) ++count;
   }
+  body.labelledBroken = body.brokenCount;
   return body.fragmentCount = count;
 }
 

@@ -125,6 +125,7 @@ struct Body {
   std::uint32_t fragmentCount = 0;
   std::uint32_t crushedCount = 0;
   std::uint32_t brokenCount = 0;
+  std::uint32_t labelledBroken = 0;  ///< brokenCount when the fragments were labelled
   std::uint32_t anchorsIntact = 0;
   bool asleep = false;
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]

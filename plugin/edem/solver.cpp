@@ -208,6 +208,7 @@ class SolverOf final : public Solver {
   void list();
   bool refreshLists();
   bool contactsBegan() const;
+  void refreshFragments();
   double longestStep(double dt);
   void substep(double kick, double step, const Eigen::Vector3d& gravity);
   void closeTick(double dt);
@@ -248,7 +249,9 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   while (left > 0 && m_failure.empty()) {
     for (auto& body : m_bodies)
       if (!body->asleep) beginSubstep(*body);
-    if (refreshLists() || contactsBegan()) {
+    const bool listed = refreshLists();
+    if (listed) refreshFragments();
+    if (listed || contactsBegan()) {
       // What is near has changed: the rest of the tick in equal steps that are short enough for it.
       const double longest = substeps == 0 ? longestStep(dt) : std::min(step, longestStep(dt));
       if (!m_failure.empty()) break;
@@ -337,6 +340,17 @@ bool SolverOf<Real>::refreshLists() {
     return false;
   }
   return true;
+}
+
+// What has broken free parts from what it hits as itself, not when the tick is over: restitution would depend
+// on the tick.
+template <class Real>
+void SolverOf<Real>::refreshFragments() {
+  for (auto& body : m_bodies) {
+    if (body->asleep || body->labelledBroken == body->brokenCount) continue;
+    labelFragments(*body);
+    beginMotions(*body);
+  }
 }
 
 // More contacts began at an element than the step was chosen for.

@@ -1,6 +1,7 @@
 // What a scene may hold but hardly means is said in words, and a run that must stop says whose numbers ran
 // away.
 #include <gtest/gtest.h>
+#include <limits>
 
 #include <sstream>
 
@@ -143,7 +144,7 @@ TEST_F(Advice, NumbersThatRunAwayStopTheRunWithTheObject) {
            R"(, "frames": 1, "debris": {}, "gravity": [0, 0, 0],
       "impactors": [{"shape": "sphere", "radius": 0.4, "mass": 100, "position": [0, 5, 0.8], "velocity": [0, 0, -9]}]})");
   demo::World world(scene, demo::cookObjects(scene), log());
-  world.bullet().setGravity(btVector3(0, btScalar(-1e18), 0));
+  world.bullet().setGravity(btVector3(0, -std::numeric_limits<btScalar>::infinity(), 0));
   try {
     world.step();
     FAIL() << "ran on";
