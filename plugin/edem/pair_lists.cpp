@@ -24,19 +24,18 @@ bool before(const PairEntry& a, const PairEntry& b) {
 
 // Brings the list into its order and gives pairs that touched in `old` their memory back.
 template <class Real>
-void remember(PairList<Real>& list, const PairList<Real>* old) {
+void remember(PairList<Real>& list, const PairList<Real>& old) {
   std::sort(list.entries.begin(), list.entries.end(), before);
   list.memory.assign(list.entries.size(), {});
-  if (!old) return;
-  list.elastic = old->elastic;
+  list.elastic = old.elastic;
   std::size_t k = 0;
-  for (std::size_t o = 0; o < old->entries.size(); ++o) {
-    if (!old->entries[o].touching && !(old->memory[o].range > Real(0))) continue;
-    while (k < list.entries.size() && before(list.entries[k], old->entries[o])) ++k;
+  for (std::size_t o = 0; o < old.entries.size(); ++o) {
+    if (!old.entries[o].touching && !(old.memory[o].range > Real(0))) continue;
+    while (k < list.entries.size() && before(list.entries[k], old.entries[o])) ++k;
     if (k == list.entries.size()) return;
-    if (before(old->entries[o], list.entries[k])) continue;
-    list.entries[k].touching = old->entries[o].touching;
-    list.memory[k] = old->memory[o];
+    if (before(old.entries[o], list.entries[k])) continue;
+    list.entries[k].touching = old.entries[o].touching;
+    list.memory[k] = old.memory[o];
   }
 }
 
@@ -122,7 +121,7 @@ void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, Pa
       }
     }
   }
-  remember(list, &old);
+  remember(list, old);
 }
 
 template <class Real>
@@ -141,7 +140,7 @@ void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, Pair
       if ((gridB.listed[j] - p).squaredNorm() < distance * distance) list.entries.push_back({i, j, kNoPair});
     });
   }
-  remember(list, &old);
+  remember(list, old);
 }
 
 template <class Real>

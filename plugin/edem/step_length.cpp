@@ -7,8 +7,7 @@
 namespace rubble::edem {
 namespace {
 
-// Step over 1 / omega of a lone contact. At 0.35 a blow without dashpots takes nine steps and gives its
-// energy back to 1e-3; a packed body's springs want as short a step already.
+// Step over 1 / omega of a lone contact: a blow then takes nine steps.
 constexpr double kContactPhase = 0.35;
 
 template <class Real>

@@ -187,7 +187,6 @@ struct RestingDebris : BulletWorld {
     def.asset = std::make_shared<const Asset>(gridAsset(
         {.cubes = {10, 1, 10}, .edge = 0.05, .origin = {-0.25, height - 0.05, -0.25}, .anchored = false}));
     def.material = material("concrete_soft");
-    def.material.tensileStrength = 2 * def.material.tensileStrength;  // bears its weight between the shelves
     def.anchored = false;
     return destruction->addBody(def);
   }

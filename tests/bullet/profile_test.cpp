@@ -20,13 +20,19 @@ class Profile : public testing::Test {
  protected:
   void SetUp() override {
     zones().clear();
+    m_enter = btGetCurrentEnterProfileZoneFunc();
+    m_leave = btGetCurrentLeaveProfileZoneFunc();
     btSetCustomEnterProfileZoneFunc([](const char* name) { zones().emplace_back(name); });
     btSetCustomLeaveProfileZoneFunc([] {});
   }
   void TearDown() override {
-    btSetCustomEnterProfileZoneFunc(nullptr);
-    btSetCustomLeaveProfileZoneFunc(nullptr);
+    btSetCustomEnterProfileZoneFunc(m_enter);
+    btSetCustomLeaveProfileZoneFunc(m_leave);
   }
+
+ private:
+  btEnterProfileZoneFunc* m_enter = nullptr;
+  btLeaveProfileZoneFunc* m_leave = nullptr;
 };
 
 TEST_F(Profile, NamesEveryStageInItsOrder) {

@@ -60,6 +60,30 @@ inline edem::RigidProxy ball(double radius, double mass, const Eigen::Vector3d& 
   return proxy;
 }
 
+/// A body that does not move, of one surface.
+inline edem::RigidProxy fixed(const edem::Collider& part,
+                              const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+  edem::RigidProxy proxy;
+  proxy.position = at;
+  proxy.parts = {part};
+  return proxy;
+}
+
+/// A plane through the origin that falls towards x by `tilt` [rad].
+inline edem::RigidProxy fixedPlane(double tilt = 0) {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Plane;
+  part.size = {std::sin(tilt), std::cos(tilt), 0};
+  return fixed(part);
+}
+
+inline edem::RigidProxy fixedBox(const Eigen::Vector3d& half, const Eigen::Vector3d& at) {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Box;
+  part.size = half;
+  return fixed(part, at);
+}
+
 /// One body driven stage by stage, for tests that need its state in their own hands. The order is that of
 /// Solver::tick.
 template <class Real>

@@ -7,27 +7,23 @@ namespace {
 constexpr double kCube = 0.2;  // edge of a cube, twice the radius of its element [m]
 constexpr double kCubeMass = 2400 * kCube * kCube * kCube;
 
-edem::RigidProxy fixed(const edem::Collider& part, const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
-  edem::RigidProxy proxy;
-  proxy.position = at;
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+// As rough as the elements are.
+edem::RigidProxy plane(double degrees = 0) {
+  edem::RigidProxy proxy = fixedPlane(degrees * kDegree);
   proxy.friction = 1;
-  proxy.parts = {part};
   return proxy;
 }
 
-edem::RigidProxy plane(double degrees = 0) {
-  edem::Collider part;
-  part.kind = edem::Collider::Kind::Plane;
-  const double a = degrees * 3.14159265358979 / 180;
-  part.size = {std::sin(a), std::cos(a), 0};
-  return fixed(part);
-}
-
-edem::RigidProxy box(const Eigen::Vector3d& half, const Eigen::Vector3d& at) {
-  edem::Collider part;
-  part.kind = edem::Collider::Kind::Box;
-  part.size = half;
-  return fixed(part, at);
+// A slab that lies on plane(degrees) and loses what shakes it.
+edem::BodyDef slabOnSlope(double degrees, double friction) {
+  edem::BodyDef def = block({2, 1, 2});
+  def.transform = Eigen::AngleAxisd(-degrees * kDegree, Eigen::Vector3d::UnitZ());
+  def.material.friction = friction;
+  def.material.contactDamping = 0.3;
+  def.material.springDamping = 0.1;
+  return def;
 }
 
 template <class Real>
@@ -79,12 +75,7 @@ TYPED_TEST(RestingContact, LooseElementsInAHeapGainNothing) {
 TYPED_TEST(RestingContact, BlockDoesNotCreepDownASlopeItCanStandOn) {
   for (const double degrees : {12.0, 25.0}) {
     this->solver = makeSolver<TypeParam>(false);
-    edem::BodyDef def = block({2, 1, 2});
-    def.transform = Eigen::AngleAxisd(-degrees * 3.14159265358979 / 180, Eigen::Vector3d::UnitZ());
-    def.material.friction = 0.6;  // holds to 31 degrees
-    def.material.contactDamping = 0.3;
-    def.material.springDamping = 0.1;
-    this->solver->addBody(def, kNoGravity);
+    this->solver->addBody(slabOnSlope(degrees, 0.6), kNoGravity);  // holds to 31 degrees
     std::vector<edem::RigidProxy> proxies = {plane(degrees)};
     this->run(1, kFrame, proxies);
     const Eigen::Vector3d before = this->solver->position(0, 0);
@@ -94,16 +85,12 @@ TYPED_TEST(RestingContact, BlockDoesNotCreepDownASlopeItCanStandOn) {
 }
 
 TYPED_TEST(RestingContact, BlockSlidesWhereFrictionDoesNotHold) {
-  edem::BodyDef def = block({2, 1, 2});
-  def.transform = Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitZ());
-  def.material.friction = 0.3;
-  def.material.contactDamping = 0.3;
-  def.material.springDamping = 0.1;
-  this->solver->addBody(def, kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane(0.5 * 180 / 3.14159265358979)};
+  constexpr double kDegrees = 28;
+  this->solver->addBody(slabOnSlope(kDegrees, 0.3), kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane(kDegrees)};
   const Eigen::Vector3d before = this->solver->position(0, 0);
   this->run(1, kFrame, proxies);
-  const double way = 0.5 * 9.81 * (std::sin(0.5) - 0.3 * std::cos(0.5));
+  const double way = 0.5 * 9.81 * (std::sin(kDegrees * kDegree) - 0.3 * std::cos(kDegrees * kDegree));
   EXPECT_NEAR((this->solver->position(0, 0) - before).norm(), way, 0.03 * way);
 }
 
@@ -152,7 +139,7 @@ TYPED_TEST(RestingContact, LightPlateOnManyElementsGainsNothing) {
   for (const double mass : {0.1, 0.5, 1.0, 5.0}) {
     this->solver = makeSolver<TypeParam>(false);
     this->solver->addBody(def, kNoGravity);
-    edem::RigidProxy proxy = box({0.335, 0.01, 0.335}, {0.337, 0.0337 + 0.012, 0.337});
+    edem::RigidProxy proxy = fixedBox({0.335, 0.01, 0.335}, {0.337, 0.0337 + 0.012, 0.337});
     proxy.inverseMass = 1 / mass;
     proxy.inverseInertia = Eigen::Vector3d(12, 6, 12) / (mass * 0.67 * 0.67);
     std::vector<edem::RigidProxy> proxies = {proxy};
@@ -192,7 +179,7 @@ TYPED_TEST(RestingContact, KinematicBodyPressesWhatAnAnchorCarries) {
   for (const bool kinematic : {false, true}) {
     this->solver = makeSolver<TypeParam>(false);
     this->solver->addBody(block({3, 1, 3}, true), kNoGravity);
-    std::vector<edem::RigidProxy> proxies = {box({0.1, 0.1, 0.1}, {0.3, kCube + 0.101, 0.3})};
+    std::vector<edem::RigidProxy> proxies = {fixedBox({0.1, 0.1, 0.1}, {0.3, kCube + 0.101, 0.3})};
     proxies[0].kinematic = kinematic;
     proxies[0].velocity = Eigen::Vector3d(0, -0.1, 0);
     for (int t = 0; t < 6; ++t) this->solver->tick(kFrame, kNoGravity, proxies);
@@ -204,42 +191,51 @@ TYPED_TEST(RestingContact, KinematicBodyPressesWhatAnAnchorCarries) {
 TYPED_TEST(RestingContact, FirstSeenDeepGivesNoKick) {
   // Half a radius deep in one box, and as near to another that it must not be mistaken for.
   this->solver->addBody(block({1, 1, 1}), kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {box({1, 1, 1}, {0.1, -0.95, 0.1}),
-                                           box({1, 1, 1}, {1.23, 0.1, 0.1})};
+  std::vector<edem::RigidProxy> proxies = {fixedBox({1, 1, 1}, {0.1, -0.95, 0.1}),
+                                           fixedBox({1, 1, 1}, {1.23, 0.1, 0.1})};
   for (int t = 0; t < 30; ++t) {
     this->solver->tick(kFrame, kNoGravity, proxies);
     EXPECT_LT(this->solver->maxSpeed(0), 0.01);
   }
 }
 
+// Balance of a block that meets a plane, over its first energy.
+template <class Real>
+double balanceAtAPlane(double restitution, double substepSafety) {
+  edem::SolverDef solverDef;
+  solverDef.substepSafety = substepSafety;
+  solverDef.breaking = solverDef.crushing = false;
+  const auto solver =
+      edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, solverDef);
+  edem::BodyDef def = block({2, 2, 2});
+  def.velocity = Eigen::Vector3d(1, -3, 0);
+  def.transform.translation() = Eigen::Vector3d(0, 0.05, 0);
+  def.material.friction = 0.6;
+  def.material.restitution = restitution;
+  solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane()};
+  proxies[0].restitution = 1;
+  for (int t = 0; t < 30; ++t) solver->tick(kFrame, kNoGravity, proxies);
+  const edem::Books& b = solver->books();
+  EXPECT_EQ(b.bullet.work.done(), 0);
+  EXPECT_GT(b.bullet.linear.norm(), 100) << "it has met the plane";
+  return (b.kinetic + b.elastic - b.dissipated.done()) / b.initialEnergy - 1;
+}
+
 TYPED_TEST(RestingContact, StaticBodyGivesNoEnergy) {
-  for (const double restitution : {0.0, 1.0}) {
-    this->solver = makeSolver<TypeParam>(false);
-    edem::BodyDef def = block({2, 2, 2});
-    def.material.restitution = restitution;
-    def.velocity = Eigen::Vector3d(1, -3, 0);
-    def.transform.translation() = Eigen::Vector3d(0, 0.05, 0);
-    def.material.friction = 0.6;
-    this->solver->addBody(def, kNoGravity);
-    std::vector<edem::RigidProxy> proxies = {plane()};
-    proxies[0].restitution = 1;
-    for (int t = 0; t < 30; ++t) this->solver->tick(kFrame, kNoGravity, proxies);
-    const edem::Books& b = this->solver->books();
-    EXPECT_EQ(b.bullet.work.done(), 0);
-    EXPECT_GT(b.bullet.linear.norm(), 100) << "it has met the plane";
-    // So the balance is of the elements and their contacts alone, and can fail.
-    EXPECT_NEAR(b.kinetic + b.elastic - b.dissipated.done(), b.initialEnergy, 3e-3 * b.initialEnergy);
-  }
+  // So the balance is of the elements and their contacts alone, and can fail.
+  EXPECT_NEAR(balanceAtAPlane<TypeParam>(1, 0.9), 0, 1e-3);
+  // What is withheld begins at an instant and not where the block turns round: an error that falls with the
+  // substep, by its square at least.
+  const double whole = balanceAtAPlane<TypeParam>(0, 0.9), half = balanceAtAPlane<TypeParam>(0, 0.45);
+  EXPECT_LT(std::abs(half), 0.25 * std::abs(whole));
+  EXPECT_LT(std::abs(half), 1e-3);
 }
 
 TYPED_TEST(RestingContact, WhatAContactRemembersSurvivesSleep) {
-  edem::BodyDef def = block({2, 1, 2});
-  def.transform = Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitZ());
-  def.material.friction = 0.6;
-  def.material.contactDamping = 0.3;
-  def.material.springDamping = 0.1;
-  this->solver->addBody(def, kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane(0.3 * 180 / 3.14159265358979)};
+  constexpr double kDegrees = 17;
+  this->solver->addBody(slabOnSlope(kDegrees, 0.6), kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {plane(kDegrees)};
   this->run(2, kFrame, proxies);
   const Eigen::Vector3d before = this->solver->position(0, 0);
   for (int nap = 0; nap < 20; ++nap) {
@@ -250,7 +246,7 @@ TYPED_TEST(RestingContact, WhatAContactRemembersSurvivesSleep) {
   }
   // Without its memory it would sag by the springs' length each time: m g sin / (n k_t), four elements a
   // side.
-  const double sag = kCubeMass * 9.81 * std::sin(0.3) / (0.2 * 0.5 * 30e6 * kCube);
+  const double sag = kCubeMass * 9.81 * std::sin(kDegrees * kDegree) / (0.2 * 0.5 * 30e6 * kCube);
   EXPECT_LT((this->solver->position(0, 0) - before).norm(), sag);
 }
 

@@ -13,13 +13,8 @@ double bounce(edem::BodyDef def, double restitution, double height, double tilt 
   def.transform = Eigen::Translation3d(0, height, 0) * Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitZ());
   const auto solver = makeSolver<Real>(false);
   const std::uint32_t id = solver->addBody(def, kNoGravity);
-  edem::RigidProxy ground;
-  edem::Collider plane;
-  plane.kind = edem::Collider::Kind::Plane;
-  plane.size = Eigen::Vector3d::UnitY();
-  ground.parts = {plane};
-  ground.restitution = 1;
-  std::vector<edem::RigidProxy> proxies = {ground};
+  std::vector<edem::RigidProxy> proxies = {fixedPlane()};
+  proxies[0].restitution = 1;
   double highest = 0;
   bool fell = false;
   const auto centre = [&] {
@@ -84,13 +79,8 @@ TYPED_TEST(Restitution, LeavesTheBlowAsItIs) {
     def.velocity = Eigen::Vector3d(0, -3, 0);
     const auto solver = makeSolver<TypeParam>(false);
     solver->addBody(def, kNoGravity);
-    edem::RigidProxy ground;
-    edem::Collider plane;
-    plane.kind = edem::Collider::Kind::Plane;
-    plane.size = Eigen::Vector3d::UnitY();
-    ground.parts = {plane};
-    ground.restitution = 1;
-    std::vector<edem::RigidProxy> proxies = {ground};
+    std::vector<edem::RigidProxy> proxies = {fixedPlane()};
+    proxies[0].restitution = 1;
     while (solver->velocity(0, 0).y() < 0) {
       depth[e].push_back(solver->position(0, 0).y());
       solver->tick(1e-4, kNoGravity, proxies);

@@ -59,12 +59,7 @@ TYPED_TEST(RigidBody, BlockRestsOnThePlane) {
   def.material.contactDamping = 0.5;
   const auto solver = makeSolver<TypeParam>();
   const std::uint32_t id = solver->addBody(def, kNoGravity);
-  edem::RigidProxy ground;
-  edem::Collider plane;
-  plane.kind = edem::Collider::Kind::Plane;
-  plane.size = Eigen::Vector3d::UnitY();
-  ground.parts = {plane};
-  std::vector<edem::RigidProxy> proxies = {ground};
+  std::vector<edem::RigidProxy> proxies = {fixedPlane()};
   for (int t = 0; t < 180; ++t) solver->tick(kFrame, kGravity, proxies);
   EXPECT_LT(solver->maxSpeed(id), 1e-3);
   // Each lower element carries two: overlap = 2 m g / k_cn, k_cn = E h / 2.
