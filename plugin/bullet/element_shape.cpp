@@ -25,7 +25,7 @@ void ElementShape::refit(double travel) {
     m_high = m_low;
     return;
   }
-  const Eigen::Vector3d grow = Eigen::Vector3d::Constant(travel + m_solver.radius(m_body));
+  const Eigen::Vector3d grow = Eigen::Vector3d::Constant(travel + margin());
   m_low = toBullet(box.min() - grow);
   m_high = toBullet(box.max() + grow);
 }

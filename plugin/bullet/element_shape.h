@@ -23,6 +23,8 @@ class ElementShape : public btConcaveShape {
 
   /// Takes the elements' bounds, grown by what they may travel before the next call [m].
   void refit(double travel);
+  /// By which the bounds are wider than what the elements may travel [m].
+  double margin() const { return m_solver.radius(m_body); }
   /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a
   /// ball in the air that our contacts have let through.
   void setHidden(bool hidden) { m_hidden = hidden; }

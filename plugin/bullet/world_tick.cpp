@@ -11,7 +11,7 @@
 #include "bullet/body_def.h"
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
-
+#include "bullet/swept_bodies.h"
 #include "debris/bond.h"
 #include "edem/own_weight.h"
 #include "rubble/limits.h"
@@ -93,6 +93,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->material = bodyDef.material;
   impl->model = bodyDef.model;
   impl->shape = std::make_unique<bullet::ElementShape>(*solver, impl->id);
+  impl->speed = solver->maxSpeed(impl->id);
   impl->wasRoot.assign(bodyDef.asset->elementCount(), 0);
   const auto fragment = solver->view(impl->id).fragment;
   for (std::size_t i = 0; i < fragment.size(); ++i) impl->wasRoot[i] = fragment[i] == i;
@@ -163,8 +164,9 @@ void Destruction::Impl::record(std::vector<T>& list, const T& event) {
   }
 }
 
-void Destruction::Impl::gatherProxies() {
+void Destruction::Impl::gatherProxies(double dt) {
   BT_PROFILE("Rubble gather proxies");
+  bullet::addSwept(world, bodies, dt);
   touched.clear();
   proxies.clear();
   for (DestructibleBody* body : bodies) {
@@ -210,7 +212,7 @@ void Destruction::Impl::advance(double dt) {
   if (!solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
-  gatherProxies();
+  gatherProxies(dt);
   std::vector<edem::RigidProxy> start = proxies;
   {
     BT_PROFILE("Rubble substeps");
@@ -485,7 +487,7 @@ void Destruction::Impl::updateSleep(double dt) {
   BT_PROFILE("Rubble update sleep");
   for (DestructibleBody* body : bodies) {
     const std::uint32_t id = body->id();
-    const double speed = solver->maxSpeed(id);
+    const double speed = body->impl().speed = solver->maxSpeed(id);
     const bool quiet = def.sleep && speed < kQuietSpeed;
     double& calm = body->impl().calmTime;
     calm = speed < kCalmSpeed ? calm + dt : 0;

@@ -79,7 +79,7 @@ struct Destruction::Impl {
  private:
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
   void logPrestress(std::uint32_t id, const std::string& name, const DestructibleBodyDef& bodyDef) const;
-  void gatherProxies();
+  void gatherProxies(double dt);
   void lateImpulses();
   void fixPositions();
   void noteReactions(double dt);
