@@ -53,8 +53,14 @@ void merge(Document& document, Json& target, const Json& value, const std::strin
   }
 }
 
+bool hasEmptyName(const std::string& path) {
+  return path.starts_with('.') || path.ends_with('.') || path.find("..") != std::string::npos;
+}
+
 // Merges `value` at a dotted path.
 void mergeAt(Document& document, const std::string& path, const Json& value, const std::string& source) {
+  if (hasEmptyName(path))
+    throw InputError(source, path, "has an empty name in it, must be names joined by single dots");
   document.origins[path] = source;
   Json* target = &document.json;
   Json* parent = nullptr;
@@ -65,6 +71,7 @@ void mergeAt(Document& document, const std::string& path, const Json& value, con
     parent = target;
     target = &entry(*target, part, {&origins, done});
     done = joined(done, part);
+    if (target->is_null()) document.origins[done] = source;  // made on the way
     last = part;
   }
   if (value.is_null() && parent->is_object()) {
@@ -128,24 +135,35 @@ Json parseValue(const Override& change) {
   }
 }
 
-std::filesystem::path resolve(const std::string& nameOrPath, const std::filesystem::path& besides) {
-  const bool isName = nameOrPath.find('/') == std::string::npos && !nameOrPath.ends_with(".json");
-  if (!isName) return nameOrPath;
-  const std::filesystem::path neighbour = besides / (nameOrPath + ".json");
-  if (!besides.empty() && std::filesystem::exists(neighbour)) return neighbour;
-  return sceneFolder() / (nameOrPath + ".json");
+bool isName(const std::string& nameOrPath) {
+  return nameOrPath.find('/') == std::string::npos && !nameOrPath.ends_with(".json");
 }
 
-void mergeFile(Document& document, const std::filesystem::path& file, int depth) {
+std::filesystem::path bundled(const std::string& name) {
+  return sceneFolder() / (name + ".json");
+}
+
+// The file that `extends` means in `file`: beside it, else one of the bundled.
+std::filesystem::path baseOf(const std::filesystem::path& file, const std::string& nameOrPath) {
+  const std::filesystem::path folder = file.parent_path();
+  if (!isName(nameOrPath)) return folder / nameOrPath;  // an absolute path stays as it is
+  const std::filesystem::path neighbour = folder / (nameOrPath + ".json");
+  std::error_code error;
+  return std::filesystem::exists(neighbour, error) ? neighbour : bundled(nameOrPath);
+}
+
+// `wantedBy` says who extends the file, as errors begin when it cannot be read.
+void mergeFile(Document& document, const std::filesystem::path& file, const std::string& wantedBy,
+               int depth) {
   const std::string name = file.string();
-  Json json = parse(readFile(file, name), name);
+  Json json = parse(readFile(file, wantedBy + name), name);
   if (!json.is_object()) throw InputError(name, "", "is " + shown(json) + ", must be an object {...}");
   if (const auto base = json.find("extends"); base != json.end()) {
     if (!base->is_string())
       throw InputError(name, "extends", "is " + shown(*base) + ", must be the name of a scene");
     if (depth >= kDeepestExtends)
       throw InputError(name, "extends", "goes in a circle, must end at a whole scene");
-    mergeFile(document, resolve(base->get<std::string>(), file.parent_path()), depth + 1);
+    mergeFile(document, baseOf(file, base->get<std::string>()), name + ": extends: ", depth + 1);
     json.erase("extends");
   }
   document.origins[""] = name;
@@ -194,9 +212,10 @@ Override parseOverride(const std::string& text, const std::string& source) {
 }
 
 Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& overrides) {
-  const std::filesystem::path file = resolve(nameOrPath, {});
+  const std::filesystem::path file =
+      isName(nameOrPath) ? bundled(nameOrPath) : std::filesystem::path(nameOrPath);
   Document document;
-  mergeFile(document, file, 0);
+  mergeFile(document, file, "", 0);
   for (const Override& change : overrides) {
     mergeAt(document, change.path, parseValue(change), change.source);
   }

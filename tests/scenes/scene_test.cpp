@@ -193,6 +193,24 @@ TEST_F(SceneFile, AnErrorNamesTheFileThatItsValueCameFrom) {
             "scene.json: dust.drag: is -2, must be 0 to 1000");
 }
 
+// From wherever the program was started: the file's own folder counts.
+TEST_F(SceneFile, ExtendsLooksBesideTheFileThatSaysIt) {
+  m_folder.write("base.json", R"({"frames": 7})");
+  EXPECT_EQ(load(R"({"extends": "base.json"})").frames, 7);
+  EXPECT_EQ(load(R"({"extends": "./base.json"})").frames, 7);
+  m_folder.write("scene.json", R"({"extends": "base"})");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(m_folder.path());
+  EXPECT_NO_THROW(EXPECT_EQ(demo::loadScene("scene.json").frames, 7));
+  std::filesystem::current_path(before);
+}
+
+TEST_F(SceneFile, AMissingBaseIsRefusedWithTheFileThatWantsIt) {
+  EXPECT_EQ(refusal(R"({"extends": "none.json"})"),
+            "scene.json: extends: none.json: there is no such file, must be a scene file or one of: " +
+                demo::sceneNames());
+}
+
 TEST_F(SceneFile, CirclesOfExtendsAreRefused) {
   EXPECT_EQ(refusal(R"({"extends": "scene"})"),
             "scene.json: extends: goes in a circle, must end at a whole scene");
@@ -205,6 +223,18 @@ TEST_F(SceneFile, PathsThroughValuesAndBeyondListsAreRefused) {
             "--set: objects.2: there is no such entry, allowed: 0 to 0");
   EXPECT_THROW(demo::parseOverride("frames"), InputError);
   EXPECT_THROW(demo::parseOverride("=5"), InputError);
+}
+
+// Where a setting made the whole object, the setting is at fault and not the file.
+TEST_F(SceneFile, WhatASettingMakesIsTheSettings) {
+  const std::string scene = R"({"objects": []})";
+  EXPECT_EQ(refusal(scene, {{"debris.budgets.first", "1"}}).find("--set: debris.budgets: unknown key"), 0u);
+  EXPECT_EQ(refusal(scene, {{"impactor.0.velocity", "[0,0,1]"}}).find("--set: impactor: unknown key"), 0u);
+  EXPECT_EQ(refusal(scene, {{"objects.0.elements", "5"}}).find("--set: objects.0.size: "), 0u);
+  EXPECT_EQ(refusal(scene, {{"frames..first", "5"}}),
+            "--set: frames..first: has an empty name in it, must be names joined by single dots");
+  EXPECT_EQ(refusal(scene, {{".", "5"}}),
+            "--set: .: has an empty name in it, must be names joined by single dots");
 }
 
 TEST_F(SceneFile, DeepNestingIsRefused) {
