@@ -56,6 +56,15 @@ class BenchProgram : public testing::Test {
   TestFolder m_folder;
 };
 
+TEST_F(BenchProgram, HelpNamesEveryTopicAndTheWayToWrite) {
+  const ChildResult help = run("--help");
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_NE(help.out.find("--write FILE.md"), std::string::npos) << help.out;
+  for (const BenchTopic& topic : benchTopics())
+    EXPECT_NE(help.out.find(' ' + topic.name), std::string::npos) << topic.name;
+  EXPECT_NE(help.out.find("--benchmark_filter"), std::string::npos) << help.out;
+}
+
 TEST_F(BenchProgram, WritesTheTableBetweenTheMarkers) {
   const std::string file = m_folder.write(
       "notes.md",

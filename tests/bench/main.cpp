@@ -48,6 +48,16 @@ BenchOptions parse(const std::vector<std::string>& words) {
   return options;
 }
 
+// Printed before Google Benchmark's own help, which ends the program.
+void printUsage() {
+  std::cout
+      << "rubble_bench [TOPIC [--write FILE.md]] [--benchmark_...]\n"
+         "Without TOPIC everything is measured; with it, one table; with --write, that table between its "
+         "markers in FILE.md.\nTOPIC:";
+  for (const BenchTopic& topic : benchTopics()) std::cout << ' ' << topic.name;
+  std::cout << "\n\nOptions of Google Benchmark:" << std::endl;
+}
+
 void writeTable(const BenchOptions& options) {
   const BenchTopic& topic = benchTopic(options.topic);
   std::optional<demo::MarkedText> document;
@@ -64,6 +74,7 @@ void writeTable(const BenchOptions& options) {
 // Google Benchmark takes its options out. A table holds medians of five, unless they say otherwise.
 std::vector<std::string> initialize(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
+  if (std::find(words.begin(), words.end(), "--help") != words.end()) printUsage();
   if (std::any_of(words.begin() + 1, words.end(), [](const std::string& w) { return !w.starts_with("-"); }))
     words.insert(words.begin() + 1, "--benchmark_repetitions=5");
   std::vector<char*> raw = {argv[0]};  // is kept
