@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "demo/info.h"
 #include "demo/input_error.h"
 
 namespace rubble::demo {
@@ -95,6 +96,16 @@ CommandLine::Command command(const CLI::App& app) {
   return CommandLine::Command::Run;
 }
 
+// An asset has nothing to run and no keys to change.
+void checkAsset(const CommandLine& line) {
+  if (!isAssetFile(line.scene)) return;
+  if (line.command != CommandLine::Command::Info)
+    throw InputError(line.scene, "", "is an asset, must be a scene; rubble info tells what an asset holds");
+  if (!line.overrides.empty())
+    throw InputError(line.overrides.front().source, line.overrides.front().path,
+                     "changes a scene and not an asset, must be left out");
+}
+
 }  // namespace
 
 CommandLine parseCommandLine(int argc, char** argv) {
@@ -122,6 +133,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
   line.report.scene = line.scene;
   if (raw.frames) line.overrides.push_back({"frames", *raw.frames, "--frames"});
   if (raw.seed) line.overrides.push_back({"seed", *raw.seed, "--seed"});
+  checkAsset(line);
   line.report.overrides = line.overrides;
   line.run.render = !raw.noRender;
   parseSize(raw.size, line.run.width, line.run.height);

@@ -144,6 +144,15 @@ TEST_F(Program, FoldersAndPipesAreNoScenesAndNoAssets) {
   }
 }
 
+TEST_F(Program, AnAssetCanBeShownAndNothingElse) {
+  m_folder.write("a.rubble-asset", "no asset");
+  for (const char* command : {"run", "view", "report"})
+    expectError(run(std::string(command) + " a.rubble-asset"), 2,
+                "a.rubble-asset: is an asset, must be a scene");
+  expectError(run("info a.rubble-asset --frames 3"), 2,
+              "--frames: frames: changes a scene and not an asset, must be left out");
+}
+
 TEST_F(Program, AFullDiskIsExitCode1AndOneLine) {
   m_folder.write("small.json", kSmallWall);
   expectError(run("run small.json --no-render --frames 1 --stats /dev/full"), 1,
