@@ -1,5 +1,6 @@
 #include "demo/markdown_table.h"
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -22,7 +23,8 @@ std::string markdownTable(const TextRows& rows) {
 std::string rounded(double value) {
   std::ostringstream text;
   text << std::setprecision(3) << value;
-  return text.str();
+  const bool thousands = std::abs(value) >= 999.5 && std::abs(value) < 1e6;  // else 2300 reads 2.3e+03
+  return thousands ? std::to_string(std::lround(std::stod(text.str()))) : text.str();
 }
 
 }  // namespace rubble::demo

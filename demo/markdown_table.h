@@ -12,7 +12,7 @@ using TextRows = std::vector<std::vector<std::string>>;
 /// The first row is the heading.
 std::string markdownTable(const TextRows& rows);
 
-/// Three significant digits.
+/// Three significant digits, without an exponent from 1 to a million.
 std::string rounded(double value);
 
 }  // namespace rubble::demo

@@ -6,6 +6,7 @@
 
 #include "demo/command_line.h"
 #include "demo/input_error.h"
+#include "demo/markdown_table.h"
 #include "demo/marked_text.h"
 #include "scenes/scene_file.h"
 #include "support/folders.h"
@@ -33,6 +34,16 @@ TEST(Readme, TablesBelongToTheScenesAndTheSolverAsTheyAre) {
     }
   }
   EXPECT_GE(tables, 2);
+}
+
+TEST(Rounded, HasThreeDigitsAndThousandsWithoutExponent) {
+  EXPECT_EQ(demo::rounded(2301.4), "2300");
+  EXPECT_EQ(demo::rounded(-19190), "-19200");
+  EXPECT_EQ(demo::rounded(999.6), "1000");
+  EXPECT_EQ(demo::rounded(312.4), "312");
+  EXPECT_EQ(demo::rounded(0.0041172), "0.00412");
+  EXPECT_EQ(demo::rounded(1.34e-5), "1.34e-05");
+  EXPECT_EQ(demo::rounded(0), "0");
 }
 
 class Marked : public testing::Test {
