@@ -10,11 +10,8 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <string>
 
 #include "rubble/asset.h"
-#include "rubble/error.h"
 
 namespace rubble::base {
 
@@ -84,10 +81,6 @@ void visitAssetFields(AssetType& asset, Field&& field) {
   for (auto& displacement : asset.rest->displacements) field(displacement);
   for (auto& rotation : asset.rest->rotations)
     for (int part = 0; part < 4; ++part) field(rotation.coeffs()[part]);
-}
-
-[[noreturn]] inline void refuseFile(const std::filesystem::path& file, const std::string& what) {
-  throw Error(file.string() + ": " + what);
 }
 
 }  // namespace rubble::base

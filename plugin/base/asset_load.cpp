@@ -13,6 +13,7 @@
 
 #include "base/asset_format.h"
 #include "base/hash.h"
+#include "base/input_file.h"
 
 namespace rubble {
 namespace {
@@ -100,33 +101,6 @@ class BodyReader {
   std::size_t m_at = 0, m_end = 0;
   std::uint64_t m_checksum = base::Fnv1a::kOffsetBasis;
 };
-
-// Its size, if it is a file whose bytes can be read at all. Asked before it is opened: opening a pipe waits
-// for a writer.
-std::uint64_t sizeOf(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  switch (status.type()) {
-    case std::filesystem::file_type::regular:
-      break;
-    case std::filesystem::file_type::not_found:
-      refuseFile(file, "no such file");
-    case std::filesystem::file_type::directory:
-      refuseFile(file, "is a folder; allowed: an asset file");
-    case std::filesystem::file_type::fifo:
-      refuseFile(file, "is a pipe; allowed: an asset file");
-    case std::filesystem::file_type::socket:
-      refuseFile(file, "is a socket; allowed: an asset file");
-    case std::filesystem::file_type::block:
-    case std::filesystem::file_type::character:
-      refuseFile(file, "is a device; allowed: an asset file");
-    default:
-      refuseFile(file, "cannot be read: " + (error ? error.message() : "it is no regular file"));
-  }
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) refuseFile(file, "cannot be read: " + error.message());
-  return size;
-}
 
 Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
   std::array<std::uint8_t, kAssetHeaderBytes> bytes{};
@@ -226,7 +200,7 @@ Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::ui
 }
 
 Asset loadFile(const std::filesystem::path& file) {
-  const std::uint64_t size = sizeOf(file);
+  const std::uint64_t size = inputSize(file, "an asset file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));

@@ -11,6 +11,7 @@
 
 #include "base/asset_format.h"
 #include "base/hash.h"
+#include "base/input_file.h"
 
 namespace rubble {
 namespace {
