@@ -1,4 +1,4 @@
-// The one door to CGAL: points in, tetrahedra out.
+// A door to CGAL: points in, tetrahedra out.
 #pragma once
 
 #include <Eigen/Core>

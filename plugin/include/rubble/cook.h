@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct SurfaceMesh {
 
 /// A box with the given full edge lengths [m] about `centre`; 8 vertices, 12 triangles.
 SurfaceMesh boxMesh(const Eigen::Vector3d& size, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero());
+
+/// Reads the surface in a file of the format that its ending names: .obj, .off, .ply or .stl, as text or, but
+/// for OBJ, binary. `scale` is the length of one unit of the file [m], finite and above 0. Polygons are cut
+/// into triangles. Vertices at exactly the same place become one where the file's own indices leave edges
+/// open, as in every STL and at the seams of textures; nothing else is mended. Normals, texture coordinates,
+/// colours and materials are left out. Throws rubble::Error that names the file and what is wrong with it;
+/// whether the surface is closed is for `cook` to say.
+SurfaceMesh readMesh(const std::filesystem::path& file, double scale = 1);
 
 struct CookOptions {
   /// Number of elements wanted (1 to 10,000,000). The cook makes exactly as many, or throws saying what fits.
