@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <thread>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kLargestPicture = 8192;  // [pixels]
 constexpr int kMostThreads = 256;
+constexpr double kShortestDirection = 1e-9;
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 the machine failed (disk, memory, OpenGL, ffmpeg); 2 bad input, nothing was "
@@ -24,7 +26,7 @@ constexpr const char* kExitCodes =
 struct Raw {
   std::string size = "1280x720";
   std::vector<std::string> sets, sweeps;
-  std::optional<std::string> frames, seed;
+  std::optional<std::string> frames, seed, anchor;
   bool noRender = false;
 };
 
@@ -53,6 +55,23 @@ void addPath(CLI::App& app, const std::string& option, std::filesystem::path& pa
   });
 }
 
+// "x,y,z"
+Eigen::Vector3d parseDirection(const std::string& option, const std::string& text) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, direction[axis]);
+    const bool isLast = axis == 2;
+    if (error != std::errc() || (isLast ? next != end : next == end || *next != ','))
+      throw InputError(option, text, "is no direction, must be x,y,z");
+    at = next + 1;
+  }
+  if (!(direction.norm() > kShortestDirection) || !std::isfinite(direction.norm()))
+    throw InputError(option, text, "has no direction, must be x,y,z, not 0,0,0");
+  return direction;
+}
+
 void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
   app.add_option("SCENE", line.scene, "name in demo/scenes, or path of a JSON file")->required();
   app.add_option("--set", raw.sets, "key.path=value: change the scene; may be repeated")
@@ -62,7 +81,23 @@ void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
   app.add_option("--threads", line.run.threads, "of the dust grid")->check(CLI::Range(1, kMostThreads));
 }
 
+void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
+  CLI::App* cook = app.add_subcommand("cook", "make a .rubble-asset file of a closed surface");
+  cook->add_option("MESH", options.mesh, "OBJ, OFF, PLY or STL")->required();
+  addPath(*cook, "-o,--output", options.asset, "the asset, ends in .rubble-asset");
+  cook->get_option("--output")->required();
+  cook->add_option("--elements", options.elements, "how many elements it is cut into, default 2048")
+      ->check(CLI::NonNegativeNumber);
+  cook->add_option("--radius", options.radius,
+                   "of the elements [m], default chosen; alone, as many are made as fit");
+  cook->add_option("--scale", options.scale, "length of one unit of the mesh [m], default 1");
+  cook->add_option("--anchor", raw.anchor, "x,y,z: the flat side that faces this way is tied to the world");
+  cook->add_option("--seed", options.seed, "of the packing, default 1")->check(CLI::NonNegativeNumber);
+}
+
 void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
+  addCook(app, line.cook, raw);
+
   CLI::App* run = app.add_subcommand("run", "simulate a scene, write pictures and statistics");
   addSceneOptions(*run, line, raw);
   addPath(*run, "--out", line.run.out, "folder of the results, default out/SCENE");
@@ -90,6 +125,7 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
 }
 
 CommandLine::Command command(const CLI::App& app) {
+  if (app.got_subcommand("cook")) return CommandLine::Command::Cook;
   if (app.got_subcommand("view")) return CommandLine::Command::View;
   if (app.got_subcommand("info")) return CommandLine::Command::Info;
   if (app.got_subcommand("report")) return CommandLine::Command::Report;
@@ -126,8 +162,13 @@ CommandLine parseCommandLine(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError("command line", "", std::string(error.what()) + ", see rubble --help");
   }
-  if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   line.command = command(app);
+  if (line.command == CommandLine::Command::Cook) {
+    if (line.cook.mesh.empty()) throw InputError("MESH", "", "is empty, must be a path");
+    if (raw.anchor) line.cook.anchor = parseDirection("--anchor", *raw.anchor);
+    return line;
+  }
+  if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
   for (const std::string& sweep : raw.sweeps) line.report.sweeps.push_back(parseSweep(sweep));
   line.report.scene = line.scene;

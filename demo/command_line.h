@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/cook.h"
 #include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
@@ -12,13 +13,14 @@
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report };
+  enum class Command { Run, View, Info, Report, Cook };
   Command command = Command::Run;
-  std::string scene;
+  std::string scene;  ///< empty for Cook
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
+  CookFileOptions cook;
 };
 
 /// The text of --help or --version was asked for: ends the program with exit code 0.

@@ -1,10 +1,12 @@
-// rubble: runs, shows and describes scenes of destruction. Arguments -> scene -> loop.
+// rubble: runs, shows and describes scenes of destruction, and cooks what they are made of. Arguments ->
+// scene -> loop.
 #include <exception>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 
 #include "demo/command_line.h"
+#include "demo/cook.h"
 #include "demo/info.h"
 #include "demo/input_error.h"
 #include "demo/report.h"
@@ -18,10 +20,13 @@ using namespace rubble::demo;
 enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kStopped = 3 };
 
 void execute(const CommandLine& line) {
+  if (line.command == CommandLine::Command::Cook) return cookFile(line.cook, std::cout);
   if (line.command == CommandLine::Command::Info && isAssetFile(line.scene))
     return describeAsset(line.scene, std::cout);
   const Scene scene = loadScene(line.scene, line.overrides);
   switch (line.command) {
+    case CommandLine::Command::Cook:  // no scene
+      break;
     case CommandLine::Command::Run:
       runScene(scene, line.run, std::cout);
       break;

@@ -2,38 +2,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scenes/child.h"
-#include "scenes/scene_file.h"
+#include "scenes/program.h"
 
 namespace rubble::test {
 namespace {
-
-class Program : public testing::Test {
- protected:
-  ChildResult run(const std::string& arguments) {
-    ChildResult result =
-        runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments, m_folder.path());
-    EXPECT_EQ(result.error.find("rubble: warning: "), std::string::npos) << arguments << '\n' << result.error;
-    return result;
-  }
-  // An error is one line, after what progress has said; nothing else is printed.
-  void expectError(const ChildResult& result, int exitCode, const std::string& words) {
-    EXPECT_EQ(result.exitCode, exitCode) << result.error;
-    const auto start = result.error.rfind("rubble: error: ");
-    ASSERT_NE(start, std::string::npos) << result.error;
-    EXPECT_EQ(lines(result.error.substr(start)), 1) << result.error;
-    EXPECT_NE(result.error.find(words, start), std::string::npos) << result.error;
-    EXPECT_EQ(result.out, "");
-  }
-  bool exists(const std::string& name) const { return std::filesystem::exists(m_folder.path() / name); }
-  static std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
-
-  TestFolder m_folder;
-};
 
 TEST_F(Program, RunsASceneAndSaysWhatHappened) {
   m_folder.write("small.json", kSmallWall);

@@ -1,0 +1,147 @@
+#include "demo/cook.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "base/stopwatch.h"
+#include "demo/console.h"
+#include "demo/info.h"
+#include "demo/input_error.h"
+#include "demo/output_file.h"
+#include "demo/progress.h"
+#include "rubble/asset.h"
+#include "rubble/limits.h"
+#include "rubble/machine_error.h"
+
+namespace rubble::demo {
+namespace {
+
+// Twelve orders of magnitude: from nanometres to a thousand kilometres a unit.
+constexpr Limits kScale = {1e-9, 1e6};
+
+// As many digits as a person reads.
+std::string numberText(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+void checkNumbers(const CookFileOptions& options) {
+  const auto check = [](const char* option, double value, const Limits& limits) {
+    if (!limits.hold(value))
+      throw InputError(option, numberText(value), "is not allowed, must be " + limits.text());
+  };
+  if (options.elements) check("--elements", double(*options.elements), limits::kElements);
+  if (options.radius) check("--radius", *options.radius, {1e-6, limits::kElementRadius.high});
+  check("--scale", options.scale, kScale);
+}
+
+void checkTarget(const CookFileOptions& options) {
+  const std::string name = options.asset.string();
+  checkFile("--output", options.asset, {});
+  std::error_code error;
+  const auto status = std::filesystem::status(options.asset, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError("--output", name, "is a pipe, a socket or a device, must be a file, old or new");
+  if (!isAssetFile(name))
+    throw InputError("--output", name, "does not end in .rubble-asset, must do so to be known again");
+  if (sameFile(options.mesh, options.asset))
+    throw InputError("--output", name, "is the mesh itself, must be another file");
+}
+
+double acrossOf(const SurfaceMesh& mesh) {
+  Eigen::AlignedBox3d bounds;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) bounds.extend(mesh.vertices[corner]);
+  return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
+}
+
+// Signed: of an inside-out mesh below 0. An open one has a volume of a kind; cook() refuses both.
+double volumeOf(const SurfaceMesh& mesh) {
+  const Eigen::Vector3d& origin = mesh.vertices[mesh.triangles[0][0]];
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin)) / 6;
+  return sum;
+}
+
+std::uint64_t elementsOfRadius(double radius, double fill, double volume) {
+  const double ball = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  const double count = std::max(1.0, std::round(fill * volume / ball));
+  if (count > limits::kElements.high) {
+    throw InputError("--radius", numberText(radius),
+                     "makes " + numberText(count) + " elements of a mesh of " + numberText(volume) +
+                         " m^3, must make " + limits::kElements.text());
+  }
+  return std::uint64_t(count);
+}
+
+CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
+  CookOptions options;
+  options.seed = given.seed;
+  options.anchorDirection = given.anchor;
+  constexpr double kRounding = 1e-6;  // of a flat side, in a file of floats [of its size]
+  options.anchorBand = std::max(options.anchorBand, kRounding * acrossOf(mesh));
+  if (given.radius) options.radius = *given.radius;
+  if (given.elements) {
+    options.elements = *given.elements;
+  } else if (given.radius) {
+    options.elements = elementsOfRadius(options.radius, options.fill, volumeOf(mesh));
+  }
+  return options;
+}
+
+Asset cookSolid(const SurfaceMesh& mesh, const CookFileOptions& given) {
+  const CookOptions options = cookOptions(given, mesh);
+  try {
+    Progress progress(given.mesh.stem().string());
+    return cook(
+        mesh, options,
+        [&](double share, const char* stage) { progress.show(share, std::string("cooking, ") + stage); },
+        consoleLog());
+  } catch (const Error& error) {
+    throw InputError(given.mesh.string(), "", error.what());
+  }
+}
+
+}  // namespace
+
+SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
+  SurfaceMesh mesh;
+  try {
+    mesh = readMesh(file, scale);
+  } catch (const Error& error) {
+    throw InputError(error.what());
+  }
+  const double across = acrossOf(mesh);
+  if (!limits::kLength.hold(across))
+    throw InputError(file.string(), "",
+                     "is " + numberText(across) + " m across with " + numberText(scale) +
+                         " m a unit, must be " + limits::kLength.text() + " m; a scale changes it");
+  return mesh;
+}
+
+void cookFile(const CookFileOptions& options, std::ostream& out) {
+  base::Stopwatch clock;
+  checkNumbers(options);
+  checkTarget(options);
+  const Asset asset = cookSolid(readSolid(options.mesh, options.scale), options);
+  if (options.anchor && asset.anchors.empty())
+    throw InputError("--anchor", options.mesh.string(),
+                     "has no flat side that faces this way, must be the direction of one");
+  try {
+    save(asset, options.asset);
+  } catch (const Error& error) {
+    throw MachineError(error.what());  // the name was looked at before
+  }
+  out << options.asset.string() << ": " << asset.elementCount() << " elements, " << asset.springs.size()
+      << " springs, " << asset.anchors.size() << " anchors, radius " << asset.radius << " m, volume "
+      << asset.volume() << " m^3, " << asset.triangles.size() << " triangles, in " << clock.lap() / 1000
+      << " s\n";
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,33 @@
+// `rubble cook`: a mesh file into an asset.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+
+#include "rubble/cook.h"
+
+namespace rubble::demo {
+
+struct CookFileOptions {
+  std::filesystem::path mesh;   ///< OBJ, OFF, PLY or STL
+  std::filesystem::path asset;  ///< ends in .rubble-asset
+  /// Neither: 2048. The radius alone: as many as fill the solid like those whose radius is chosen.
+  std::optional<std::uint64_t> elements;
+  std::optional<double> radius;           ///< [m]
+  double scale = 1;                       ///< of one unit of the mesh [m]
+  std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
+  std::uint64_t seed = 1;
+};
+
+/// Writes the asset and tells in one line what was made. Throws InputError before the long work where it can,
+/// MachineError; the asset is written whole or not at all.
+void cookFile(const CookFileOptions& options, std::ostream& out);
+
+/// The surface in the file, `scale` metres a unit. Throws InputError that starts with `file`, also when its
+/// size is none that a solid may have.
+SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
+
+}  // namespace rubble::demo

@@ -1,0 +1,186 @@
+// `rubble cook` from outside: what it makes, what it refuses, and that nothing is left of what it refuses.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "rubble/asset.h"
+#include "scenes/program.h"
+
+namespace rubble::test {
+namespace {
+
+// A box of 2 x 1 x 0.5 with quadrilaterals, as modellers write it.
+constexpr const char* kBox =
+    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 .5\nv 2 0 .5\nv 2 1 .5\nv 0 1 .5\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+// The corner of a cube: volume 1/6.
+constexpr const char* kCorner =
+    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+std::string cornerAsBinaryStl() {
+  std::string bytes(80, ' ');
+  const auto append = [&bytes](auto value) {
+    const auto raw = std::bit_cast<std::array<char, sizeof(value)>>(value);
+    bytes.append(raw.data(), raw.size());
+  };
+  append(std::uint32_t(4));
+  const std::array<std::array<float, 3>, 4> points = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (const std::array<std::size_t, 3>& triangle :
+       {std::array<std::size_t, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+    for (int k = 0; k < 3; ++k) append(0.0f);
+    for (const std::size_t corner : triangle)
+      for (const float x : points[corner]) append(x);
+    append(std::uint16_t(0));
+  }
+  return bytes;
+}
+
+class CookProgram : public Program {
+ protected:
+  Asset cooked(const std::string& name) const { return load(m_folder.path() / name); }
+  // Refused, and nothing but the files of the test is there.
+  void expectRefused(const std::string& arguments, const std::string& words) {
+    const ChildResult result = run("cook " + arguments);
+    expectError(result, 2, words);
+    for (const auto& entry : std::filesystem::directory_iterator(m_folder.path()))
+      EXPECT_EQ(entry.path().filename().string().find(".rubble-asset"), std::string::npos) << entry.path();
+  }
+};
+
+TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
+  m_folder.write("box.obj", kBox);
+  const ChildResult result = run("cook box.obj -o box.rubble-asset --elements 100 --anchor 0,-1,0");
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  const Asset asset = cooked("box.rubble-asset");
+  EXPECT_EQ(asset.elementCount(), 100u);
+  EXPECT_NEAR(asset.volume(), 1, 1e-9);
+  double anchored = 0;  // the face y = 0 of 2 x 0.5
+  for (const AssetAnchor& anchor : asset.anchors) {
+    anchored += anchor.area;
+    EXPECT_NEAR(anchor.point.y(), 0, 1e-9);
+  }
+  EXPECT_NEAR(anchored, 1, 1e-9);
+  const std::string counts = "100 elements, " + std::to_string(asset.springs.size()) + " springs, " +
+                             std::to_string(asset.anchors.size()) + " anchors, radius ";
+  EXPECT_EQ(result.out.find("box.rubble-asset: " + counts), 0u) << result.out;
+  EXPECT_NE(result.out.find(", volume 1 m^3, "), std::string::npos) << result.out;
+  EXPECT_EQ(lines(result.out), 1) << result.out;
+
+  const ChildResult info = run("info box.rubble-asset");
+  EXPECT_EQ(info.exitCode, 0) << info.error;
+  for (const std::string& text :
+       {std::string("100, radius "),
+        std::to_string(asset.springs.size()) + " and " + std::to_string(asset.anchors.size()) + " anchors",
+        std::string("1 m^3")})
+    EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
+}
+
+TEST_F(CookProgram, TakesTheOtherFormats) {
+  m_folder.write("a.off", kCorner);
+  m_folder.write("b.stl", cornerAsBinaryStl());
+  for (const char* name : {"a.off", "b.stl"}) {
+    const ChildResult result = run(std::string("cook ") + name + " -o c.rubble-asset --elements 100");
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_NEAR(cooked("c.rubble-asset").volume(), 1.0 / 6, 1e-9) << name;
+  }
+}
+
+TEST_F(CookProgram, ARadiusAloneSaysHowManyElements) {
+  m_folder.write("box.obj", kBox);
+  const ChildResult result = run("cook box.obj -o box.rubble-asset --radius 0.05");
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  const Asset asset = cooked("box.rubble-asset");
+  EXPECT_EQ(asset.radius, 0.05);
+  // 0.48 of the solid's 1 m^3, in balls of this radius.
+  EXPECT_EQ(asset.elementCount(),
+            std::size_t(std::round(0.48 / (4.0 / 3 * std::numbers::pi * 0.05 * 0.05 * 0.05))));
+}
+
+TEST_F(CookProgram, ScalesAndKeepsTheSeed) {
+  m_folder.write("box.obj", kBox);
+  const auto cookedWith = [&](const std::string& arguments) {
+    EXPECT_EQ(run("cook box.obj -o box.rubble-asset --elements 50 --scale 0.1 " + arguments).exitCode, 0);
+    return cooked("box.rubble-asset");
+  };
+  const Asset first = cookedWith("--seed 7"), again = cookedWith("--seed 7"), other = cookedWith("--seed 8");
+  EXPECT_NEAR(first.volume(), 1e-3, 1e-12);
+  EXPECT_EQ(first.positions, again.positions);
+  EXPECT_NE(first.positions, other.positions);
+}
+
+TEST_F(CookProgram, RefusesMeshesByFileAndFault) {
+  m_folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+  expectRefused("open.obj -o a.rubble-asset", "open.obj: mesh: not closed: the edge from ");
+  m_folder.write("empty.obj", "");
+  expectRefused("empty.obj -o a.rubble-asset", "empty.obj: holds no faces that can be read as OBJ");
+  m_folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expectRefused("nan.obj -o a.rubble-asset", "nan.obj: line 1 is no vertex; allowed: ");
+  m_folder.write("a.off", kCorner);
+  expectRefused("a.off -o a.rubble-asset --scale 1e-5", "a.off: is 1.73205e-05 m across");
+  m_folder.write("box.obj", kBox);
+  std::filesystem::create_directory(m_folder.path() / "folder.obj");
+  expectRefused("folder.obj -o a.rubble-asset", "folder.obj: is a folder; allowed: a mesh file");
+  expectRefused("none.obj -o a.rubble-asset", "none.obj: no such file");
+  expectRefused("a.off -o a.rubble-asset --elements 20 --radius 0.3",
+                "a.off: cook: 20 elements of radius 0.3");
+  expectRefused("box.obj -o a.rubble-asset --elements 100 --anchor 1,-1,0",
+                "--anchor: box.obj: has no flat side");
+}
+
+TEST_F(CookProgram, RefusesArgumentsBeforeTheMeshIsLookedAt) {
+  m_folder.write("a.off", kCorner);
+  for (const char* arguments : {"",
+                                "a.off",
+                                "-o a.rubble-asset",
+                                "'' -o a.rubble-asset",
+                                "a.off -o ''",
+                                "a.off -o a.asset",
+                                "a.off -o a.off",
+                                "a.off -o none/a.rubble-asset",
+                                "a.off -o .",
+                                "a.off -o a.rubble-asset --elements 0",
+                                "a.off -o a.rubble-asset --elements -5",
+                                "a.off -o a.rubble-asset --elements 10000001",
+                                "a.off -o a.rubble-asset --elements many",
+                                "a.off -o a.rubble-asset --radius 0",
+                                "a.off -o a.rubble-asset --radius nan",
+                                "a.off -o a.rubble-asset --radius 1e-6",
+                                "a.off -o a.rubble-asset --scale 0",
+                                "a.off -o a.rubble-asset --scale inf",
+                                "a.off -o a.rubble-asset --anchor 0,0,0",
+                                "a.off -o a.rubble-asset --anchor up",
+                                "a.off -o a.rubble-asset --anchor 0,1",
+                                "a.off -o a.rubble-asset --anchor 0,1,nan",
+                                "a.off -o a.rubble-asset --anchor ''",
+                                "a.off -o a.rubble-asset --seed -1",
+                                "a.off -o a.rubble-asset --wat"}) {
+    SCOPED_TRACE(arguments);
+    expectRefused(arguments, "");
+  }
+  EXPECT_EQ(std::filesystem::file_size(m_folder.path() / "a.off"), std::string(kCorner).size());
+}
+
+// Four blocks of 512 bytes hold no asset of 100 elements.
+TEST_F(CookProgram, AFullDiskIsExitCode1AndLeavesNoHalfFile) {
+  m_folder.write("a.off", kCorner);
+  m_folder.write("a.rubble-asset", "the old one");
+  const ChildResult result = runChild("cd " + m_folder.path().string() +
+                                          " && trap '' XFSZ && ulimit -f 4 && " RUBBLE_PROGRAM
+                                          " cook a.off -o a.rubble-asset --elements 100",
+                                      m_folder.path());
+  expectError(result, 1, "a.rubble-asset: cannot be written");
+  EXPECT_EQ(std::filesystem::file_size(m_folder.path() / "a.rubble-asset"), 11u);
+  int assets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder.path()))
+    assets += entry.path().filename().string().starts_with("a.rubble-asset");
+  EXPECT_EQ(assets, 1);
+}
+
+TEST_F(CookProgram, AFolderThatCannotBeWrittenIsExitCode1) {
+  m_folder.write("a.off", kCorner);
+  expectError(run("cook a.off -o /proc/a.rubble-asset"), 1, "/proc/a.rubble-asset: cannot be written");
+}
+
+}  // namespace
+}  // namespace rubble::test
