@@ -13,15 +13,13 @@
 #include "demo/input_error.h"
 #include "demo/output_file.h"
 #include "demo/progress.h"
+#include "demo/solid.h"
 #include "rubble/asset.h"
 #include "rubble/limits.h"
 #include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
-
-// Twelve orders of magnitude: from nanometres to a thousand kilometres a unit.
-constexpr Limits kScale = {1e-9, 1e6};
 
 // As many digits as a person reads.
 std::string numberText(double number) {
@@ -37,7 +35,7 @@ void checkNumbers(const CookFileOptions& options) {
   };
   if (options.elements) check("--elements", double(*options.elements), limits::kElements);
   if (options.radius) check("--radius", *options.radius, {1e-6, limits::kElementRadius.high});
-  check("--scale", options.scale, kScale);
+  check("--scale", options.scale, kMeshScale);
 }
 
 void checkTarget(const CookFileOptions& options) {
@@ -51,13 +49,6 @@ void checkTarget(const CookFileOptions& options) {
     throw InputError("--output", name, "does not end in .rubble-asset, must do so to be known again");
   if (sameFile(options.mesh, options.asset))
     throw InputError("--output", name, "is the mesh itself, must be another file");
-}
-
-double acrossOf(const SurfaceMesh& mesh) {
-  Eigen::AlignedBox3d bounds;
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) bounds.extend(mesh.vertices[corner]);
-  return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
 // Signed: of an inside-out mesh below 0. An open one has a volume of a kind; cook() refuses both.
@@ -84,8 +75,7 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
   CookOptions options;
   options.seed = given.seed;
   options.anchorDirection = given.anchor;
-  constexpr double kRounding = 1e-6;  // of a flat side, in a file of floats [of its size]
-  options.anchorBand = std::max(options.anchorBand, kRounding * acrossOf(mesh));
+  options.anchorBand = anchorBandOf(mesh);
   if (given.radius) options.radius = *given.radius;
   if (given.elements) {
     options.elements = *given.elements;
@@ -93,6 +83,14 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
     options.elements = elementsOfRadius(options.radius, options.fill, volumeOf(mesh));
   }
   return options;
+}
+
+SurfaceMesh meshOf(const CookFileOptions& given) {
+  try {
+    return readSolid(given.mesh, given.scale);
+  } catch (const Error& error) {
+    throw InputError(error.what());
+  }
 }
 
 Asset cookSolid(const SurfaceMesh& mesh, const CookFileOptions& given) {
@@ -110,26 +108,11 @@ Asset cookSolid(const SurfaceMesh& mesh, const CookFileOptions& given) {
 
 }  // namespace
 
-SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
-  SurfaceMesh mesh;
-  try {
-    mesh = readMesh(file, scale);
-  } catch (const Error& error) {
-    throw InputError(error.what());
-  }
-  const double across = acrossOf(mesh);
-  if (!limits::kLength.hold(across))
-    throw InputError(file.string(), "",
-                     "is " + numberText(across) + " m across with " + numberText(scale) +
-                         " m a unit, must be " + limits::kLength.text() + " m; a scale changes it");
-  return mesh;
-}
-
 void cookFile(const CookFileOptions& options, std::ostream& out) {
   base::Stopwatch clock;
   checkNumbers(options);
   checkTarget(options);
-  const Asset asset = cookSolid(readSolid(options.mesh, options.scale), options);
+  const Asset asset = cookSolid(meshOf(options), options);
   if (options.anchor && asset.anchors.empty())
     throw InputError("--anchor", options.mesh.string(),
                      "has no flat side that faces this way, must be the direction of one");

@@ -7,8 +7,6 @@
 #include <optional>
 #include <ostream>
 
-#include "rubble/cook.h"
-
 namespace rubble::demo {
 
 struct CookFileOptions {
@@ -25,9 +23,5 @@ struct CookFileOptions {
 /// Writes the asset and tells in one line what was made. Throws InputError before the long work where it can,
 /// MachineError; the asset is written whole or not at all.
 void cookFile(const CookFileOptions& options, std::ostream& out);
-
-/// The surface in the file, `scale` metres a unit. Throws InputError that starts with `file`, also when its
-/// size is none that a solid may have.
-SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
 
 }  // namespace rubble::demo

@@ -20,8 +20,11 @@ struct Placement {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();             ///< axis times rate [rad/s]
 };
 
-/// Something that can break.
+/// Something that can break: a box, the solid in a mesh file, or an asset that was cooked before.
 struct SceneObject : Placement {
+  std::filesystem::path mesh = {};   ///< empty: none
+  double scale = 1;                  ///< of one unit of the mesh [m]
+  std::filesystem::path asset = {};  ///< empty: none
   enum class Shape { Box };
   Shape shape = Shape::Box;
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box [m]

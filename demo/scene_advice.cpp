@@ -22,17 +22,19 @@ std::string text(const Eigen::Vector3d& v) {
   return out.str() + "]";
 }
 
-Eigen::AlignedBox3d boundsOf(const SceneObject& object) {
+// Of the object where it stands; `rest` are those in its own frame.
+Eigen::AlignedBox3d boundsOf(const SceneObject& object, const Eigen::AlignedBox3d& rest) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (const double degrees = object.rotationDegrees.norm(); degrees > 0)
     turn = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, object.rotationDegrees / degrees);
-  const Eigen::Vector3d half = turn.cwiseAbs() * object.size / 2;
-  return {object.position - half, object.position + half};
+  const Eigen::Vector3d half = turn.cwiseAbs() * rest.sizes() / 2;
+  const Eigen::Vector3d centre = object.position + turn * rest.center();
+  return {centre - half, centre + half};
 }
 
-void adviseOnObject(const Scene& scene, std::size_t index, const Eigen::Vector3d& cell,
-                    const LogFunction& log) {
-  const Eigen::AlignedBox3d object = boundsOf(scene.objects[index]);
+void adviseOnObject(const Scene& scene, std::size_t index, const Eigen::AlignedBox3d& rest,
+                    const Eigen::Vector3d& cell, const LogFunction& log) {
+  const Eigen::AlignedBox3d object = boundsOf(scene.objects[index], rest);
   const Eigen::AlignedBox3d box(scene.dust->min, scene.dust->max);
   // Half a cell is not seen.
   const Eigen::AlignedBox3d roomy(box.min() - cell / 2, box.max() + cell / 2);
@@ -61,10 +63,10 @@ void adviseOnFloor(const Scene& scene, const Eigen::Vector3d& cell, const LogFun
 
 }  // namespace
 
-void adviseOnDust(const Scene& scene, const LogFunction& log) {
+void adviseOnDust(const Scene& scene, std::span<const Eigen::AlignedBox3d> bounds, const LogFunction& log) {
   if (!scene.dust || !log) return;
   const Eigen::Vector3d cell = (scene.dust->max - scene.dust->min) / scene.dust->resolution;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) adviseOnObject(scene, i, cell, log);
+  for (std::size_t i = 0; i < bounds.size(); ++i) adviseOnObject(scene, i, bounds[i], cell, log);
   adviseOnFloor(scene, cell, log);
 }
 

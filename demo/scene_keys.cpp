@@ -4,8 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
+#include "base/hash.h"
 #include "demo/key_rows.h"
+#include "demo/solid.h"
 #include "rubble/limits.h"
 
 namespace rubble::demo {
@@ -24,9 +28,8 @@ constexpr double kLowestSun = 1e-3;              // sine of its height; below, s
 constexpr Limits kAmbient = {0, 10};             // factor on the usual light
 
 template <class T>
-Table<T> withPlacement(Table<T> table) {
-  table.push_back(
-      vector<T>("position", &T::position, limits::kPosition, "m", "where its centre is at the start"));
+Table<T> withPlacement(Table<T> table, std::string meaning = "where its centre is at the start") {
+  table.push_back(vector<T>("position", &T::position, limits::kPosition, "m", std::move(meaning)));
   table.push_back(vector<T>("rotation_degrees", &T::rotationDegrees, kRotation, "degrees",
                             "turned about this axis by its length"));
   return table;
@@ -128,34 +131,94 @@ std::string thickest(const SceneObject& o) {
   return shown(o.size.minCoeff() / 2);
 }
 
+// As 16 hexadecimal digits; of a file that cannot be read, a word.
+std::string hashOfFile(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream stream(file, std::ios::binary);
+  if (!std::filesystem::is_regular_file(file, error) || !stream) return "unreadable";
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  base::Fnv1a hash;
+  for (const char byte : bytes.str()) hash.add(byte);
+  std::ostringstream text;
+  text << std::hex << hash.value();
+  return text.str();
+}
+
+bool isBox(const SceneObject& o) {
+  return o.mesh.empty() && o.asset.empty();
+}
+
+bool isCookedHere(const SceneObject& o) {
+  return o.asset.empty();
+}
+
+// A file, named from the folder of the scene's file that says so; on the command line from the working
+// folder. It is listed with a hash of what is in it, and not at all where there is none.
+Key<SceneObject> file(std::string name, std::filesystem::path SceneObject::*member, std::string meaning) {
+  return {.name = std::move(name),
+          .type = "path from this file's folder",
+          .unit = "",
+          .meaning = std::move(meaning),
+          .read =
+              [=](SceneObject& target, const Json& json, const Place& place) {
+                if (!json.is_string() || json.get_ref<const std::string&>().empty())
+                  place.refuse("is " + shown(json), "must be the name of a file");
+                target.*member =
+                    std::filesystem::path(place.source()).parent_path() / json.get<std::string>();
+              },
+          .standard = [](const SceneObject&) { return std::string("none"); },
+          .listNested =
+              [=](std::vector<std::string>& lines, const SceneObject& target, const std::string& path) {
+                const std::filesystem::path& named = target.*member;
+                if (!named.empty()) lines.push_back(path + " = " + named.string() + ", " + hashOfFile(named));
+              }};
+}
+
 const Table<SceneObject>& objectKeys() {
-  static const Table<SceneObject> table = withMotion(withPlacement<SceneObject>({
-      word<SceneObject, SceneObject::Shape>("shape", &SceneObject::shape, {{"box", SceneObject::Shape::Box}},
-                                            "form of the solid"),
-      vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m", "full edge lengths of the box")
-          .required(),
-      whole<SceneObject>("elements", &SceneObject::elements, limits::kElements, "",
-                         "how many elements it is cut into"),
-      number<SceneObject>("radius", &SceneObject::radius, limits::kElementRadius, "m",
-                          "of the elements; 0 is chosen from `fill`")
-          .must([](const SceneObject& o) {
-            return o.radius <= o.size.minCoeff() / 2
-                       ? std::string()
-                       : "must be at most " + thickest(o) + ", half the smallest edge of the box";
-          }),
-      number<SceneObject>("fill", &SceneObject::fill, limits::kFill, "",
-                          "share of the solid that the spheres fill when `radius` is 0"),
-      {"anchor", "[x, y, z], not zero", "", "the flat side that faces this way is tied to the world",
-       [](SceneObject& target, const Json& json, const Place& place) {
-         target.anchor = readVector(json, limits::kPosition, place);
-         if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
-       },
-       [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }},
-      number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
-                          "decay rate of the deformation; the rigid motion is not damped"),
-      object<SceneObject, Material>("material", &SceneObject::material, materialKeys(), "what it is made of"),
-      object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),
-  }));
+  static const Table<SceneObject> table = withMotion(withPlacement<SceneObject>(
+      {
+          file("mesh", &SceneObject::mesh, "closed surface to cook instead of a box: OBJ, OFF, PLY or STL"),
+          number<SceneObject>("scale", &SceneObject::scale, kMeshScale, "m", "length of one unit of the mesh")
+              .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
+          file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
+              .only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); }),
+          word<SceneObject, SceneObject::Shape>("shape", &SceneObject::shape,
+                                                {{"box", SceneObject::Shape::Box}}, "form of the solid")
+              .only("boxes", isBox),
+          vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m",
+                              "full edge lengths of the box")
+              .only("boxes", isBox)
+              .required(),
+          whole<SceneObject>("elements", &SceneObject::elements, limits::kElements, "",
+                             "how many elements it is cut into")
+              .only("boxes and meshes", isCookedHere),
+          number<SceneObject>("radius", &SceneObject::radius, limits::kElementRadius, "m",
+                              "of the elements; 0 is chosen from `fill`")
+              .only("boxes and meshes", isCookedHere)
+              .must([](const SceneObject& o) {
+                return !isBox(o) || o.radius <= o.size.minCoeff() / 2
+                           ? std::string()
+                           : "must be at most " + thickest(o) + ", half the smallest edge of the box";
+              }),
+          number<SceneObject>("fill", &SceneObject::fill, limits::kFill, "",
+                              "share of the solid that the spheres fill when `radius` is 0")
+              .only("boxes and meshes", isCookedHere),
+          Key<SceneObject>{
+              "anchor", "[x, y, z], not zero", "", "the flat side that faces this way is tied to the world",
+              [](SceneObject& target, const Json& json, const Place& place) {
+                target.anchor = readVector(json, limits::kPosition, place);
+                if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
+              },
+              [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }}
+              .only("boxes and meshes", isCookedHere),
+          number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
+                              "decay rate of the deformation; the rigid motion is not damped"),
+          object<SceneObject, Material>("material", &SceneObject::material, materialKeys(),
+                                        "what it is made of"),
+          object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),
+      },
+      "where its centre is at the start; of a mesh or an asset, its own origin"));
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "demo/input_error.h"
 #include "demo/scene_advice.h"
+#include "demo/solid.h"
 
 namespace rubble::demo {
 namespace {
@@ -68,6 +69,25 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   return def;
 }
 
+Asset cookObject(const SceneObject& object, std::uint64_t seed, const ProgressFunction& progress,
+                 const LogFunction& log) {
+  if (!object.asset.empty()) return load(object.asset);
+  CookOptions options;
+  options.elements = object.elements;
+  options.radius = object.radius;
+  options.fill = object.fill;
+  options.seed = seed;
+  options.anchorDirection = object.anchor;
+  if (object.mesh.empty()) return cook(boxMesh(object.size), options, progress, log);
+  const SurfaceMesh mesh = readSolid(object.mesh, object.scale);
+  options.anchorBand = anchorBandOf(mesh);
+  try {
+    return cook(mesh, options, progress, log);
+  } catch (const Error& error) {
+    throw Error(object.mesh.string() + ": " + error.what());
+  }
+}
+
 // Does `work` on one object of the scene; what the library refuses there becomes the scene's error.
 template <class Work>
 void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
@@ -83,14 +103,8 @@ void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
 Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const LogFunction& log) {
   Assets assets;
   for (const SceneObject& object : scene.objects) {
-    CookOptions options;
-    options.elements = object.elements;
-    options.radius = object.radius;
-    options.fill = object.fill;
-    options.seed = scene.seed;
-    options.anchorDirection = object.anchor;
     refuseAt(scene, assets.size(), [&] {
-      assets.push_back(std::make_shared<const Asset>(cook(boxMesh(object.size), options, progress, log)));
+      assets.push_back(std::make_shared<const Asset>(cookObject(object, scene.seed, progress, log)));
     });
   }
   return assets;
@@ -110,7 +124,9 @@ World::World(const Scene& scene, const LogFunction& log)
 }
 
 World::World(const Scene& scene, const Assets& assets, const LogFunction& log) : World(scene, log) {
-  adviseOnDust(scene, log);
+  std::vector<Eigen::AlignedBox3d> bounds;
+  for (const auto& asset : assets) bounds.push_back(asset->bounds());
+  adviseOnDust(scene, bounds, log);
   for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
   for (const SceneBody& body : scene.impactors) addImpactor(body);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -129,6 +145,7 @@ World::~World() {
 
 void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> asset) {
   DestructibleBodyDef def;
+  def.anchored = object.asset.empty() ? object.anchor.has_value() : !asset->anchors.empty();
   def.asset = std::move(asset);
   def.material = object.material;
   def.model = object.model;
@@ -136,7 +153,6 @@ void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> as
   def.velocity = toBullet(object.velocity);
   def.spin = toBullet(object.spin);
   def.massDamping = object.massDamping;
-  def.anchored = object.anchor.has_value();
   m_destruction->addBody(def);
 }
 

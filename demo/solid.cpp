@@ -1,0 +1,34 @@
+#include "demo/solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <sstream>
+
+namespace rubble::demo {
+namespace {
+
+double acrossOf(const SurfaceMesh& mesh) {
+  Eigen::AlignedBox3d bounds;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) bounds.extend(mesh.vertices[corner]);
+  return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
+}
+
+}  // namespace
+
+SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
+  SurfaceMesh mesh = readMesh(file, scale);
+  const double across = acrossOf(mesh);
+  if (limits::kLength.hold(across)) return mesh;
+  std::ostringstream text;
+  text << file.string() << ": is " << across << " m across with " << scale << " m a unit, must be "
+       << limits::kLength.text() << " m; a scale changes it";
+  throw Error(text.str());
+}
+
+double anchorBandOf(const SurfaceMesh& mesh) {
+  constexpr double kRounding = 1e-6;  // [size of the mesh]; floats hold 6e-8
+  return std::max(CookOptions().anchorBand, kRounding * acrossOf(mesh));
+}
+
+}  // namespace rubble::demo

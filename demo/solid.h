@@ -1,0 +1,22 @@
+// Solids from mesh files, as the command line and scenes take them.
+#pragma once
+
+#include <filesystem>
+
+#include "rubble/cook.h"
+#include "rubble/limits.h"
+
+namespace rubble::demo {
+
+/// Length units of meshes [m], from nanometres to a thousand kilometres.
+inline constexpr Limits kMeshScale = {1e-9, 1e6};
+
+/// The surface in the file, `scale` metres a unit. Throws rubble::Error that starts with the file, also when
+/// its size is none that a solid may have.
+SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
+
+/// How far a vertex of a flat side may be from the furthest one and still be anchored: the rounding of a file
+/// of floats [m].
+double anchorBandOf(const SurfaceMesh& mesh);
+
+}  // namespace rubble::demo
