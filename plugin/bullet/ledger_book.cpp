@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -19,6 +20,18 @@ void LedgerBook::addExchange(const debris::Exchange& exchange) {
 void LedgerBook::addPush(const ElementPush& push) {
   m_push.given += push.given;
   m_push.received += push.received;
+}
+
+// Whoever stands is pushed by its weight and by the ground for ever, so a sum of all pushes would allow more
+// error the longer things stand. The largest there ever was does not: sum m |v| <= sqrt(2 m E), by Cauchy's
+// inequality, and the pushes of one tick, which are all there is where nothing moves.
+double LedgerBook::momentumScale(const edem::Books& books, const debris::Motion& debris) {
+  const auto most = [](double mass, double kinetic) { return std::sqrt(2 * mass * std::max(kinetic, 0.0)); };
+  const double size = books.bullet.size + books.gravity.size + books.anchors.size + m_impulseSizes;
+  m_largestExchange = std::max(m_largestExchange, size - std::exchange(m_exchangedSize, size));
+  m_largestMomentum =
+      std::max(m_largestMomentum, most(books.mass, books.kinetic) + most(debris.mass, debris.kinetic));
+  return std::max(1e-6, m_largestMomentum + m_largestExchange);
 }
 
 void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
@@ -43,8 +56,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
       books.anchors.angular + m_gravity.angularAbout(books.centre) + m_air.angularAbout(books.centre) +
       m_contact.angularAbout(books.centre) + m_push.given.angularAbout(books.centre) - books.sleptAngular -
       m_dust.angularAbout(books.centre) - m_removed.angularAbout(books.centre);
-  const double scale = std::max(1e-6, books.initialMomentumSize + books.bullet.size + books.gravity.size +
-                                          books.anchors.size + m_impulseSizes);
+  const double scale = l.momentumScale = momentumScale(books, debris);
   l.linearError = (l.linearMomentum - linear).norm() / scale;
   l.angularError = (l.angularMomentum - angular).norm() / (scale * std::max(books.diagonal, 1e-6));
 
@@ -59,6 +71,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.removed = books.slept + m_dust.kinetic + m_removed.kinetic;
   m_largestEnergy =
       std::max({m_largestEnergy, 1e-6, l.kinetic + l.elastic + std::abs(l.exchanged) + std::abs(l.gravity)});
+  l.energyScale = m_largestEnergy;
   const double held = l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed;
   l.energyError = std::abs(held - books.initialEnergy - l.gravity - l.exchanged) / m_largestEnergy;
 }

@@ -22,18 +22,23 @@ class LedgerBook {
   /// with a stranger. What the elements received more or less than the debris gave shows as an error.
   void addPush(const ElementPush& push);
 
+  /// At the end of each tick.
   void close(const edem::Books& books, const debris::Motion& debris);
   const Ledger& ledger() const { return m_ledger; }
 
  private:
+  double momentumScale(const edem::Books& books, const debris::Motion& debris);
+
   Ledger m_ledger;
   debris::Motion m_dust, m_removed;
   debris::Impulse m_gravity, m_air, m_contact;
   ElementPush m_push;
-  double m_surfaceWork = 0;    // by debris on what they hit, elements too [J]
-  double m_given = 0;          // of the fracture energy, to debris [J]
-  double m_impulseSizes = 0;   // sum of |impulse| on debris [N s]
-  double m_largestEnergy = 0;  // [J]
+  double m_surfaceWork = 0;                             // by debris on what they hit, elements too [J]
+  double m_given = 0;                                   // of the fracture energy, to debris [J]
+  double m_impulseSizes = 0;                            // sum of |impulse| on debris [N s]
+  double m_exchangedSize = 0;                           // sum of all |impulse| up to the last close [N s]
+  double m_largestMomentum = 0, m_largestExchange = 0;  // in the world; in one tick [N s]
+  double m_largestEnergy = 0;                           // [J]
 };
 
 RUBBLE_ABI_END

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet/bullet_world.h"
+#include "support/grid_asset.h"
 
 namespace rubble::test {
 namespace {
@@ -60,6 +61,26 @@ TEST(Standing, CubeRestsOnACrateThatSlept) {
     w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
   EXPECT_LT(frames, 300);
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+}
+
+TEST(Standing, MomentumScaleDoesNotGrowWithTimeAtRest) {
+  DestructionDef definition;
+  definition.sleep = false;
+  BulletWorld w(definition);
+  DestructibleBodyDef def;
+  def.asset = std::make_shared<const Asset>(
+      gridAsset({.cubes = {3, 2, 2}, .edge = 0.1, .origin = {0, 0.001, 0}, .anchored = false}));
+  def.material = material("concrete_soft");
+  def.anchored = false;
+  const DestructibleBody* block = w.destruction->addBody(def);
+  const auto stand = [&](int seconds) {
+    for (int tick = 0; tick < 60 * seconds; ++tick) w.world.stepSimulation(btScalar(1) / 60, 1);
+    return w.destruction->ledger().momentumScale;
+  };
+  const double settled = stand(2);
+  EXPECT_GT(settled, block->elementMass() * 9.81 / 60) << "it holds at least a tick of its weight";
+  EXPECT_EQ(stand(10), settled);
+  EXPECT_LT(w.destruction->ledger().linearError, 1e-4);
 }
 
 TEST(Standing, SleepingWallWakesWhenABallComes) {

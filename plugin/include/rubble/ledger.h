@@ -20,6 +20,10 @@ struct Ledger {
   Eigen::Vector3d angularMomentum = Eigen::Vector3d::Zero();  ///< about the initial centre of mass [kg m^2/s]
   double linearError = 0;                                     ///< dimensionless
   double angularError = 0;                                    ///< dimensionless
+  /// What the errors of momentum are divided by, angular ones times the bodies' diagonal as well: the most
+  /// momentum that elements and debris can have had at the end of any tick, sqrt(2 mass kinetic energy), plus
+  /// the most that was exchanged in any tick, sum of |impulse|. It does not grow with time at rest [N s].
+  double momentumScale = 0;
   double momentumError() const { return linearError > angularError ? linearError : angularError; }
 
   // Energy [J]
@@ -32,6 +36,7 @@ struct Ledger {
   double exchanged = 0;    ///< work done by Bullet's bodies so far
   double removed = 0;      ///< taken away by sleep, removal and dust
   double energyError = 0;  ///< dimensionless
+  double energyScale = 0;  ///< the most that was in the world, which energyError is divided by [J]
 };
 
 }  // namespace rubble
