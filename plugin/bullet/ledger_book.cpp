@@ -22,6 +22,11 @@ void LedgerBook::addPush(const ElementPush& push) {
   m_push.received += push.received;
 }
 
+void LedgerBook::addMade(double energy, std::uint32_t bodies) {
+  m_ledger.made = energy;
+  m_ledger.makers = bodies;
+}
+
 // Whoever stands is pushed by its weight and by the ground for ever, so a sum of all pushes would allow more
 // error the longer things stand. The largest there ever was does not: sum m |v| <= sqrt(2 m E), by Cauchy's
 // inequality, and the pushes of one tick, which are all there is where nothing moves.

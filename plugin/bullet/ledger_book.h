@@ -22,6 +22,9 @@ class LedgerBook {
   /// with a stranger. What the elements received more or less than the debris gave shows as an error.
   void addPush(const ElementPush& push);
 
+  /// What EnergyAlarm found, up to now.
+  void addMade(double energy, std::uint32_t bodies);
+
   /// At the end of each tick.
   void close(const edem::Books& books, const debris::Motion& debris);
   const Ledger& ledger() const { return m_ledger; }

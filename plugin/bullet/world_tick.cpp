@@ -191,6 +191,7 @@ void Destruction::Impl::gatherProxies(double dt) {
           proxy.angularAcceleration += toEigen(held.angular);
         }
         if (isHeld(*rigid) && solver->maxSpeed(body->id()) < kCalmSpeed) {
+          t.held = true;
           proxy.inverseMass = 0;
           proxy.kinematic = true;
           proxy.velocity.setZero();
@@ -213,6 +214,7 @@ void Destruction::Impl::advance(double dt) {
   advanced = true;
   const base::ScopeTimer timer(times.edem);
   gatherProxies(dt);
+  energyAlarm.begin(proxies);
   std::vector<edem::RigidProxy> start = proxies;
   {
     BT_PROFILE("Rubble substeps");
@@ -262,9 +264,18 @@ void Destruction::Impl::finish(double dt) {
     const base::ScopeTimer timer(times.debris);
     stepDebris(dt);
   }
-  ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  closeLedger(dt);
   updateSleep(dt);
   advanced = false;
+}
+
+void Destruction::Impl::closeLedger(double dt) {
+  ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  if (!advanced || !failure.empty()) return;
+  const auto lines = energyAlarm.end(touched, proxies, dt, ledgerBook.ledger().energyScale);
+  ledgerBook.addMade(energyAlarm.made(), energyAlarm.told());
+  if (!def.log) return;
+  for (const std::string& line : lines) def.log(LogLevel::Warning, line);
 }
 
 // Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).

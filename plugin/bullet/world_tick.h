@@ -7,6 +7,7 @@
 
 #include "bullet/debris_surroundings.h"
 #include "bullet/element_algorithm.h"
+#include "bullet/energy_alarm.h"
 #include "bullet/ledger_book.h"
 #include "bullet/rigid_proxies.h"
 #include "debris/debris_system.h"
@@ -22,6 +23,7 @@ struct TouchedBody {
   btRigidBody* rigid = nullptr;  ///< null unless dynamic
   btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
   bool given = false;                                             ///< Bullet's solver has taken it
+  bool held = false;                                              ///< stood still through the substeps
   btVector3 velocity{0, 0, 0}, spin{0, 0, 0};                     ///< before the tick
   btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
   /// Where the body would be at the end of the tick under its impulse as a whole.
@@ -66,6 +68,7 @@ struct Destruction::Impl {
   std::vector<bullet::Reaction> reactions;  ///< of the last tick
   bool advanced = false;                    ///< in this tick
   bullet::LedgerBook ledgerBook;
+  bullet::EnergyAlarm energyAlarm;
   Events events[2];
   int filling = 0;
   DestructionTimes times;
@@ -88,6 +91,7 @@ struct Destruction::Impl {
   void bookEvents();
   void breakElements();
   void failSolver();
+  void closeLedger(double dt);
   void fail(const DestructibleBody& body, const std::string& what);
   void stepDebris(double dt);
   void followSleep();

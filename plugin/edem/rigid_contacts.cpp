@@ -63,13 +63,15 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books)
     state.key = proxy.key != 0 ? proxy.key : p + 1;
     const auto before = std::find_if(m_before.begin(), m_before.end(),
                                      [&](const ProxyState& s) { return s.key == state.key; });
+    proxy.given = proxy.surplus = 0;
     if (before != m_before.end()) {
       before->shift = state.shift = proxy.position - before->position;
       const Eigen::AngleAxisd turn(proxy.orientation * before->orientation.conjugate());
       before->turn = state.turn = turn.angle() * turn.axis();
       state.shifted = true;
       state.pressed = before->size;
-      bookShift(*before, books);
+      state.surplusNext = before->surplusNext;
+      bookShift(*before, proxy, books);
     }
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();
@@ -82,9 +84,11 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books)
 // Between two ticks the host's own contacts and joints move a body. What that does to the springs of its
 // contacts is work of the host: half of it at the forces before, half at those after.
 template <class Real>
-void RigidContacts<Real>::bookShift(const ProxyState& state, Books& books) const {
+void RigidContacts<Real>::bookShift(const ProxyState& state, RigidProxy& proxy, Books& books) const {
   const Eigen::Vector3d force = state.force - state.dampingForce, torque = state.torque - state.dampingTorque;
-  books.bullet.work.add(-0.5 * (force.dot(state.shift) + torque.dot(state.turn)), 0);
+  const double work = -0.5 * (force.dot(state.shift) + torque.dot(state.turn));
+  books.bullet.work.add(work, 0);
+  proxy.surplus -= work;
 }
 
 template <class Real>
@@ -300,6 +304,15 @@ void RigidContacts<Real>::add(const Touch& t, const Candidate& c, Body<Real>& bo
   state.dampingForce -= sign * t.dampingForce;
   state.dampingTorque -= sign * (arm.cross(t.dampingForce) + t.dampingTorque);
   state.size += sign * t.force.norm();
+  Push& push = m_pushes.emplace_back(c.proxy, c.body, c.element, sign * t.force, sign * t.torque);
+  push.before = pushPower(push, body);
+}
+
+// What an element gets of a push, by its velocity as it is [W].
+template <class Real>
+double RigidContacts<Real>::pushPower(const Push& push, const Body<Real>& body) const {
+  return push.force.dot(body.velocity[push.element].template cast<double>()) +
+         push.torque.dot(body.spin[push.element].template cast<double>());
 }
 
 template <class Real>
@@ -308,8 +321,11 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
   }
+  m_pushes.clear();
   m_elastic = 0;
   for (const Kept& k : m_kept) m_elastic += k.energy;
+  for (std::size_t p = 0; p < m_proxies.size(); ++p)
+    m_proxies[p].surplus += std::exchange(m_states[p].surplusNext, 0);
   double slipped = std::exchange(m_lost, 0);
   for (Candidate& c : m_candidates) {
     Body<Real>& body = *bodies[c.body];
@@ -337,8 +353,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       proxy.touched.push_back(body.id);
   }
   books.dissipated.add(-slipped, 0);
-  for (ProxyState& s : m_states)
-    if (std::exchange(s.shifted, false)) bookShift(s, books);
+  for (std::size_t p = 0; p < m_proxies.size(); ++p)
+    if (std::exchange(m_states[p].shifted, false)) bookShift(m_states[p], m_proxies[p], books);
 }
 
 template <class Real>
@@ -357,7 +373,11 @@ void RigidContacts<Real>::release(Bodies bodies, double step, double kick, Books
 }
 
 template <class Real>
-void RigidContacts<Real>::integrate(double kick, double step, Books& books) {
+void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Books& books) {
+  for (const Push& push : m_pushes) {
+    m_proxies[push.proxy].surplus += 0.5 * kick * push.before;
+    m_states[push.proxy].surplusNext += 0.5 * kick * pushPower(push, *bodies[push.body]);
+  }
   for (std::size_t p = 0; p < m_proxies.size(); ++p) {
     RigidProxy& proxy = m_proxies[p];
     const ProxyState& state = m_states[p];
@@ -379,7 +399,11 @@ void RigidContacts<Real>::integrate(double kick, double step, Books& books) {
       proxy.spin += kick * (turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * state.torque)) +
                             proxy.angularAcceleration);
     }
-    books.bullet.work.add(given, -power(state.force, state.torque));
+    const double givenNext = -power(state.force, state.torque);
+    books.bullet.work.add(given, givenNext);
+    proxy.given += given + givenNext;
+    proxy.surplus -= given;
+    m_states[p].surplusNext -= givenNext;
     books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
     proxy.position += step * proxy.velocity;
     const double angle = proxy.spin.norm() * step;

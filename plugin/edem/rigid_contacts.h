@@ -47,7 +47,7 @@ class RigidContacts {
   /// Takes the contacts of leaving elements out of this substep.
   void release(Bodies bodies, double step, double kick, Books& books);
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
-  void integrate(double kick, double step, Books& books);
+  void integrate(Bodies bodies, double kick, double step, Books& books);
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 
@@ -85,10 +85,16 @@ class RigidContacts {
     double pressed = 0;  // the same in the last substep [N]
     Eigen::Vector3d listedPosition;
     Eigen::Quaterniond listedOrientation;
+    double surplusNext = 0;                // second half step of RigidProxy::surplus [J]
     double mobility = 0;                   // sum over candidates of speed / impulse [1/kg]
     double rate = 0;                       // the same, times the stiffness of each [1/s^2]
     ElementRates rates;                    // of the rigid body, all candidates touching
     std::vector<ContactLaw<double>> laws;  // by body
+  };
+  struct Push {
+    std::uint32_t proxy, body, element;
+    Eigen::Vector3d force, torque;  // on the element
+    double before = 0;              // power on it, by its velocity before the substep [W]
   };
   struct Touch {
     Eigen::Vector3d at;                           // contact point, world [m]
@@ -99,7 +105,8 @@ class RigidContacts {
   };
 
   void keepContacts();
-  void bookShift(const ProxyState& state, Books& books) const;
+  void bookShift(const ProxyState& state, RigidProxy& proxy, Books& books) const;
+  double pushPower(const Push& push, const Body<Real>& body) const;
   void endContacts(Bodies bodies);
   void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
                 const PairLists<Real>& lists);
@@ -114,6 +121,7 @@ class RigidContacts {
   std::vector<std::uint32_t> m_ids;            // of the bodies, by place, at the last build
   std::vector<Kept> m_kept;                    // between two lists, and while their body sleeps
   std::vector<ContactSide> m_sides;            // of the bodies, by place
+  std::vector<Push> m_pushes;                  // on elements, in this substep
   double m_elastic = 0;
   double m_lost = 0;  // energy of contacts that ended between two substeps [J]
 };

@@ -32,6 +32,11 @@ struct RigidProxy {
   Eigen::Vector3d contactPoint = Eigen::Vector3d::Zero();  ///< impulse-weighted sum of contact points [N s m]
   double contactWeight = 0;                                ///< sum of the sizes of the contact impulses [N s]
   std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
+  /// Work by its own motion in the substeps, on elements and contacts [J].
+  double given = 0;
+  /// Work on the elements, by their own motion, beyond what the body gave; summed over ticks never more than
+  /// 0, or the contacts make energy. Up to the last instant of forces [J].
+  double surplus = 0;
 
   bool isDynamic() const { return inverseMass > 0; }
   bool isStatic() const { return !isDynamic() && !kinematic; }

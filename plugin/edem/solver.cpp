@@ -314,7 +314,7 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
     moveMotions(body, kick, step, gravity);
     m_listsStale = m_listsStale || !(moved2 <= Real(0.25 * m_lists.skin() * m_lists.skin()));
   }
-  m_rigid.integrate(kick, step, m_books);
+  m_rigid.integrate(m_bodies, kick, step, m_books);
   for (auto& body : m_bodies)
     if (!body->crushing.empty()) removeCrushed(*body, brokenBegin, m_books, m_report);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace rubble {
 
@@ -36,6 +37,10 @@ struct Ledger {
   double exchanged = 0;    ///< work done by Bullet's bodies so far
   double removed = 0;      ///< taken away by sleep, removal and dust
   double energyError = 0;  ///< dimensionless
+  /// The most that elements got from one rigid body beyond what that gave, up to now: energy out of nothing
+  /// [J]. And the bodies that made so much that a warning was logged.
+  double made = 0;
+  std::uint32_t makers = 0;
   double energyScale = 0;  ///< the most that was in the world, which energyError is divided by [J]
 };
 
