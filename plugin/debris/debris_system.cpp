@@ -85,6 +85,7 @@ void DebrisSystem::addOne(const DebrisParcel& parcel) {
                          .drag = grainDrag(m_def.air, parcel.density, parcel.radius),
                          .collisionRadius = parcel.collisionRadius,
                          .friction = parcel.friction,
+                         .stillAt = parcel.position,
                          .stillTime = 0,
                          .support = kFixedSurface,
                          .supports = {},
@@ -147,10 +148,15 @@ void DebrisSystem::beginStep(double dt, const Eigen::Vector3d& gravity, DebrisCo
   m_surfaces.begin(collider);  // it has seen what is near
 }
 
+// By the way and not by the speed: what lies between several surfaces goes on trembling.
 bool DebrisSystem::comesToRest(Particle& particle, double dt) const {
-  const bool still = particle.velocity.norm() <= m_def.restSpeed;
+  const double way = m_def.restSpeed * std::max(m_def.restTime, dt);
+  const bool still = (particle.position - particle.stillAt).norm() <= way;
+  if (!still) {
+    particle.stillAt = particle.position;
+    particle.supports.count = 0;
+  }
   particle.stillTime = still ? particle.stillTime + dt : 0;
-  if (!still) particle.supports.count = 0;
   return particle.touched && particle.stillTime >= m_def.restTime && still;
 }
 
@@ -196,6 +202,7 @@ std::uint32_t DebrisSystem::wakeIf(Choose choose) {
     unlink(m_resting, index);
     append(m_moving, index);
     m_pieces[index].resting = false;
+    m_particles[index].stillAt = m_particles[index].position;
     m_particles[index].stillTime = 0;
     m_particles[index].supports.count = 0;
     ++woken;

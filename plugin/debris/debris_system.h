@@ -19,10 +19,10 @@ namespace rubble::debris {
 
 struct DebrisSystemDef {
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces, 1 to 2^24; memory for all is allocated at
-                                     ///< once, about 260 bytes a piece
+                                     ///< once, about 280 bytes a piece
   Air air{};
   double restitution = 0.3;  ///< of hits, 0 to 1; rubble on stone about 0.2 to 0.4
-  double restSpeed = 0.02;   ///< slower than this for restTime, and touching: at rest [m/s], >= 0
+  double restSpeed = 0.02;   ///< no further in restTime than at this speed, and touching: at rest [m/s], >= 0
   double restTime = 0.25;    ///< [s], >= 0
   double reach = 1e4;  ///< pieces with a coordinate beyond this leave and are booked as removed [m], > 0
 };

@@ -33,12 +33,13 @@ struct Particle {
   double mass;               // [kg]
   double inertia;            // [kg m^2]
   GrainDrag drag;
-  double collisionRadius;  // [m]
-  double friction;         // Coulomb mu
-  double stillTime;        // time that it has been slower than the rest speed [s]
-  std::uint32_t support;   // surface last touched
-  Supports supports;       // surfaces touched since it has been still
-  bool touched;            // in the last step
+  double collisionRadius;   // [m]
+  double friction;          // Coulomb mu
+  Eigen::Vector3d stillAt;  // place that it has not left since [m]
+  double stillTime;         // time that it has been there [s]
+  std::uint32_t support;    // surface last touched
+  Supports supports;        // surfaces touched since it has been still
+  bool touched;             // in the last step
 };
 
 /// What changed the motion of the debris.
