@@ -115,6 +115,8 @@ const Table<Model>& modelKeys() {
       flag<Model>("coulomb_friction", &Model::coulombFriction, "friction is limited by the normal force"),
       flag<Model>("contact_memory", &Model::contactMemory,
                   "contacts remember what slid and rolled: things stand on slopes and come to rest"),
+      flag<Model>("cell_faces", &Model::cellFaces,
+                  "rigid bodies touch the faces that are drawn, not spheres"),
       flag<Model>("conserve_debris", &Model::conserveDebris,
                   "debris keep momentum, spin and energy of their element"),
       word<Model, DebrisSizes>("debris_sizes", &Model::debrisSizes,

@@ -8,8 +8,9 @@ namespace rubble {
 namespace {
 
 // Assumed, typical of the named material: densities, Bond indices, and `concrete`'s modulus and strengths.
-// The `_soft` ones are softened for games: their moduli, strengths and angles are chosen, not those of any
-// real material. Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
+// The `_soft` ones are softened for games: their moduli are a thousandth, and their strengths about twice
+// what sqrt(E) asks for, by which a blow's stress rho c v keeps its ratio to them; angles are 2 f_t / E.
+// Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
 std::array<Material, 4> presets() {
   Material softConcrete;
   Material concrete;
@@ -24,18 +25,18 @@ std::array<Material, 4> presets() {
   softBrick.name = "brick_soft";
   softBrick.density = 1900;
   softBrick.bondWorkIndex = 11.8;
-  softBrick.tensileStrength = 0.2e6;
-  softBrick.compressiveStrength = 2e6;
-  softBrick.breakingAngle = 0.014;
-  softBrick.stretchThreshold = 0.007;
+  softBrick.tensileStrength = 0.12e6;
+  softBrick.compressiveStrength = 1.2e6;
+  softBrick.breakingAngle = 0.008;
+  softBrick.stretchThreshold = 0.004;
   Material softGlass = softConcrete;
   softGlass.name = "glass_soft";
   softGlass.density = 2500;
   softGlass.bondWorkIndex = 3.08;
   softGlass.youngsModulus = 60e6;
-  softGlass.tensileStrength = 0.6e6;
-  softGlass.compressiveStrength = 12e6;
-  softGlass.stretchThreshold = 0.01;
+  softGlass.tensileStrength = 0.36e6;
+  softGlass.compressiveStrength = 7.2e6;
+  softGlass.stretchThreshold = 0.006;
   softGlass.friction = 0.4;
   return {softConcrete, concrete, softBrick, softGlass};
 }
@@ -64,6 +65,7 @@ Model Model::paper() {
   model.contactBesideSpring = true;
   model.coulombFriction = false;
   model.contactMemory = false;
+  model.cellFaces = false;
   model.conserveDebris = false;
   model.debrisSizes = DebrisSizes::Number;
   model.cellJoining = CellJoining::Direct;

@@ -66,6 +66,7 @@ std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& p
     face.offset = -face.offset;
     std::reverse(face.vertices.begin(), face.vertices.end());
   }
+  edem::listCorners(*hull);
   return hull;
 }
 

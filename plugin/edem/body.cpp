@@ -279,6 +279,10 @@ Body<Real> makeBody(const BodyDef& def, std::uint32_t id) {
   makeDashpots(body);
   indexSprings(body);
   makePairs(body);
+  if (def.model.cellFaces) {
+    body.cells = std::make_shared<const CellFaces>(makeCellFaces(*def.asset));
+    body.exposure = exposeOuter(*body.cells);
+  }
   body.criterion = makeCriterion<Real>(def.material, def.model);
   labelFragments(body);
   splitFrames(body);

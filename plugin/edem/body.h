@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+#include "edem/cell_faces.h"
 #include "edem/contact.h"
 #include "edem/criterion.h"
 #include "edem/spring.h"
@@ -99,6 +100,8 @@ struct Body {
   Criterion<Real> criterion{};
   ContactSide contact;  ///< of an element of mean mass; k_n = contactStiffness E h
   Real radius = 0;
+  /// What rigid bodies touch; none: the elements' spheres.
+  std::shared_ptr<const CellFaces> cells;
 
   // Frame 0, constant; `position` and `rest` are relative to this origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -115,6 +118,7 @@ struct Body {
   std::vector<Vec3<Real>> spin;  ///< [rad/s]
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> intact;         ///< springs, then anchors
+  Exposure exposure;                        ///< of `cells`
   std::vector<Real> range;                  ///< D of each pair [m]
   std::vector<std::uint16_t> touchesBegun;  ///< at each element since the substep was chosen
   std::vector<FragmentMotion> motions;      ///< of the fragments
@@ -153,6 +157,8 @@ struct Body {
     return rotation[i].template cast<double>() * frames[frameOf[i]].turn;
   }
   SpringEnd<Real> end(std::uint32_t i) const { return {displacement[i], rotation[i], velocity[i], spin[i]}; }
+  /// How far from its centre a rigid body may touch an element [m].
+  double reach() const { return cells ? cells->largestReach : double(radius); }
   bool isAnchor(std::size_t spring) const { return spring >= anchorBegin; }
 };
 

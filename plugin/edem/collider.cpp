@@ -89,6 +89,20 @@ SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
 
 }  // namespace
 
+void listCorners(Hull& hull) {
+  hull.corners.clear();
+  std::size_t most = 3;
+  for (const Hull::Face& face : hull.faces) {
+    most = std::max(most, face.vertices.size());
+    for (const Eigen::Vector3d& v : face.vertices)
+      if (std::find(hull.corners.begin(), hull.corners.end(), v) == hull.corners.end())
+        hull.corners.push_back(v);
+  }
+  // Lying on its largest face the hull has a contact's stiffness; a single corner is not softer than an
+  // eighth.
+  hull.cornerWeight = 1 / double(std::min<std::size_t>(most, 8));
+}
+
 Eigen::AlignedBox3d Collider::bounds() const {
   Eigen::AlignedBox3d local;
   switch (kind) {

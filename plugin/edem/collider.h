@@ -16,7 +16,12 @@ struct Hull {
     std::vector<Eigen::Vector3d> vertices;  ///< counter-clockwise seen from outside [m]
   };
   std::vector<Face> faces;
+  std::vector<Eigen::Vector3d> corners;  ///< each vertex once; written by listCorners [m]
+  double cornerWeight = 0;               ///< stiffness of one over that of a contact; by listCorners
 };
+
+/// Fills a hull's corners from its faces.
+void listCorners(Hull& hull);
 
 /// A surface in its own frame, rounded by `rounding`.
 struct Collider {

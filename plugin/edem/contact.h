@@ -146,6 +146,40 @@ struct LimitedSpring {
   }
 };
 
+/// Sliding and rolling under the normal force `total` [N]: without it, its load and its energy. `reach` times
+/// that force is the torque that gives way [m]; negative: none does.
+template <class Real>
+ContactLoad<Real> slidingLoad(const ContactLaw<Real>& law, const ContactMotion<Real>& motion, Real total,
+                              Real reach, Real moved, ContactMemory<Real>& memory) {
+  const Vec3<Real>& normal = motion.normal;
+  // The tangent plane has turned since: xi turns with it and keeps its length.
+  const Real size2 = memory.slip.squaredNorm();
+  if (size2 > Real(0)) {
+    memory.slip -= memory.slip.dot(normal) * normal;
+    const Real left2 = memory.slip.squaredNorm();
+    if (left2 > Real(0)) memory.slip *= std::sqrt(size2 / left2);
+  }
+  const Vec3<Real> sliding = motion.approach - motion.approach.dot(normal) * normal;
+  const Real limit = law.friction >= Real(0) ? law.friction * total : Real(-1);
+  const LimitedSpring<Real> slide(law.tangential, law.tangentialDamping, limit, sliding, moved, memory.slip);
+  ContactLoad<Real> load;
+  load.elastic = slide.elastic;
+  load.damping = slide.damping;
+  load.energy = slide.energy;
+  load.slipped = slide.slipped;
+  load.elasticTorque.setZero();
+  load.dampingTorque.setZero();
+  if (law.rolling > Real(0)) {
+    const LimitedSpring<Real> roll(law.rolling, law.rollingDamping, reach < Real(0) ? reach : reach * total,
+                                   motion.spin, moved, memory.roll);
+    load.elasticTorque = roll.elastic;
+    load.dampingTorque = roll.damping;
+    load.energy += roll.energy;
+    load.slipped += roll.slipped;
+  }
+  return load;
+}
+
 /// Load of a contact. The memory is advanced by `moved`, the length of the step that brought the bodies here
 /// [s]; with 0 the same load comes again.
 template <class Real>
@@ -158,32 +192,10 @@ ContactLoad<Real> contactLoad(const ContactLaw<Real>& law, const ContactMotion<R
   const Real normalSpeed = motion.approach.dot(normal);
   const Real total = (Real(1) - motion.withheld) * std::fmax(Real(0), pushed - law.damping * normalSpeed);
 
-  // The tangent plane has turned since: xi turns with it and keeps its length.
-  const Real size2 = memory.slip.squaredNorm();
-  if (size2 > Real(0)) {
-    memory.slip -= memory.slip.dot(normal) * normal;
-    const Real left2 = memory.slip.squaredNorm();
-    if (left2 > Real(0)) memory.slip *= std::sqrt(size2 / left2);
-  }
-  const Vec3<Real> sliding = motion.approach - normalSpeed * normal;
-  const Real limit = law.friction >= Real(0) ? law.friction * total : Real(-1);
-  const LimitedSpring<Real> slide(law.tangential, law.tangentialDamping, limit, sliding, moved, memory.slip);
-
-  ContactLoad<Real> load;
-  load.elastic = pushed * normal + slide.elastic;
-  load.damping = (total - pushed) * normal + slide.damping;
-  load.energy = Real(0.5) * law.stiffness * motion.overlap * motion.overlap + slide.energy;
-  load.slipped = slide.slipped;
-  load.elasticTorque.setZero();
-  load.dampingTorque.setZero();
-  if (law.rolling > Real(0)) {
-    const LimitedSpring<Real> roll(law.rolling, law.rollingDamping, law.rollingReach * total, motion.spin,
-                                   moved, memory.roll);
-    load.elasticTorque = roll.elastic;
-    load.dampingTorque = roll.damping;
-    load.energy += roll.energy;
-    load.slipped += roll.slipped;
-  }
+  ContactLoad<Real> load = slidingLoad(law, motion, total, law.rollingReach, moved, memory);
+  load.elastic += pushed * normal;
+  load.damping += (total - pushed) * normal;
+  load.energy += Real(0.5) * law.stiffness * motion.overlap * motion.overlap;
   return load;
 }
 

@@ -134,6 +134,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
     } else {
       const Real distance = Real((body.position[spring.second] - body.position[spring.first]).norm());
       body.range[s] = std::fmin(Real(2) * body.radius, distance);
+      if (body.cells) exposeBroken(*body.cells, body.intact, spring.first, spring.second, body.exposure);
       if (!body.model.contactBesideSpring) lists.addBroken(place, {spring.first, spring.second, s});
     }
   }

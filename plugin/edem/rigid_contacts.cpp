@@ -28,6 +28,20 @@ SurfacePoint nearestPart(const RigidProxy& proxy, const Eigen::Vector3d& world) 
   return best;
 }
 
+// Bound from above of the largest eigenvalue of a matrix that has none below 0: the Frobenius norm of its
+// fourth power, which is 6^(1/8) too large at most.
+double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
+  const Eigen::Matrix<double, 6, 6> square = matrix * matrix, fourth = square * square;
+  return std::pow(fourth.squaredNorm(), 0.125);
+}
+
+template <class Real>
+ElementPose poseOf(const Body<Real>& body, std::uint32_t i, const RigidProxy& proxy) {
+  const Eigen::Vector3d x = body.origin + body.position[i];
+  const Eigen::Quaterniond back = proxy.orientation.conjugate();
+  return {back * (x - proxy.position), (back * body.orientation(i)).toRotationMatrix()};
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d RigidProxy::bounds() const {
@@ -52,7 +66,7 @@ double RigidProxy::reach() const {
 }
 
 template <class Real>
-void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books) {
+void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
   keepContacts();
   m_proxies = proxies;
   std::swap(m_before, m_states);
@@ -65,13 +79,10 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books)
                                      [&](const ProxyState& s) { return s.key == state.key; });
     proxy.given = proxy.surplus = 0;
     if (before != m_before.end()) {
-      before->shift = state.shift = proxy.position - before->position;
-      const Eigen::AngleAxisd turn(proxy.orientation * before->orientation.conjugate());
-      before->turn = state.turn = turn.angle() * turn.axis();
-      state.shifted = true;
+      state.left = before->left;
+      state.moved = true;
       state.pressed = before->size;
       state.surplusNext = before->surplusNext;
-      bookShift(*before, proxy, books);
     }
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();
@@ -81,33 +92,26 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, Books& books)
   }
 }
 
-// Between two ticks the host's own contacts and joints move a body. What that does to the springs of its
-// contacts is work of the host: half of it at the forces before, half at those after.
-template <class Real>
-void RigidContacts<Real>::bookShift(const ProxyState& state, RigidProxy& proxy, Books& books) const {
-  const Eigen::Vector3d force = state.force - state.dampingForce, torque = state.torque - state.dampingTorque;
-  const double work = -0.5 * (force.dot(state.shift) + torque.dot(state.turn));
-  books.bullet.work.add(work, 0);
-  proxy.surplus -= work;
-}
-
 template <class Real>
 void RigidContacts<Real>::keepContacts() {
   for (const Candidate& c : m_candidates)
-    if (c.touching || c.memory.range > 0)
-      m_kept.push_back({m_states[c.proxy].key, m_ids[c.body], c.element, c.memory, c.energy, c.touching});
+    if (c.touching || c.memory.range > 0 || c.faces.deepest > 0)
+      m_kept.push_back(
+          {m_states[c.proxy].key, m_ids[c.body], c.element, c.memory, c.energy, c.faces, c.touching});
   m_candidates.clear();
 }
 
 template <class Real>
 void RigidContacts<Real>::remember(Candidate& candidate) {
-  const Kept wanted{m_states[candidate.proxy].key, m_ids[candidate.body], candidate.element, {}, 0, false};
+  const Kept wanted{
+      m_states[candidate.proxy].key, m_ids[candidate.body], candidate.element, {}, 0, {}, false};
   const auto found = std::lower_bound(m_kept.begin(), m_kept.end(), wanted,
                                       [](const Kept& a, const Kept& b) { return a.name() < b.name(); });
   if (found == m_kept.end() || found->name() != wanted.name()) return;
   candidate.touching = found->touching;
   candidate.memory = found->memory;
   candidate.energy = found->energy;
+  candidate.faces = found->faces;
   found->taken = true;
 }
 
@@ -138,6 +142,9 @@ void RigidContacts<Real>::build(Bodies bodies, const PairLists<Real>& lists) {
       if (!bodies[b]->asleep) listNear(p, b, *bodies[b], lists);
   }
   endContacts(bodies);
+  m_sides.clear();
+  for (const auto& body : bodies) m_sides.push_back(body->contact);
+  for (Candidate& c : m_candidates) c.exposed = -1;
   weigh(bodies);
 }
 
@@ -148,7 +155,7 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
   const ElementGrid& own = lists.grid(place);
   // From now on the element may move a whole skin (from one side of its listed place to the other) and the
   // proxy half.
-  const double reach = double(body.radius) + 1.5 * lists.skin();
+  const double away = 1.5 * lists.skin(), reach = body.reach() + away;
   const auto grown = [](const Eigen::AlignedBox3d& box, double by) {
     return Eigen::AlignedBox3d(box.min().array() - by, box.max().array() + by);
   };
@@ -162,8 +169,17 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
     if (!body.alive[i]) return;
     if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
     const Eigen::Vector3d x = body.origin + body.position[i];
-    if (nearestPart(proxy, x).distance >= reach) return;
-    Candidate candidate{p, place, i, false, {}, 0};
+    const double distance = nearestPart(proxy, x).distance;
+    if (distance >= (body.cells ? body.cells->reach[i] + away : reach)) return;
+    Candidate candidate;
+    candidate.proxy = p;
+    candidate.body = place;
+    candidate.element = i;
+    if (body.cells) {
+      const Eigen::Vector3d at = proxy.orientation.conjugate() * (x - proxy.position);
+      candidate.balls = ballWeights(proxy, at, body.cells->reach[i] + away);
+      candidate.core = distance < body.cells->core[i] + away;
+    }
     remember(candidate);
     m_candidates.push_back(candidate);
   };
@@ -177,24 +193,91 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
             [](const Candidate& a, const Candidate& b) { return a.element < b.element; });
 }
 
+// What of an element may touch at once: every point of its exposed faces that looks at the surface, the balls
+// that are near, and its core. Faces that turn towards the surface count from the next tick.
+template <class Real>
+void RigidContacts<Real>::weighFaces(Candidate& c, const Body<Real>& body) {
+  const std::uint32_t i = c.element;
+  const CellFaces& cells = *body.cells;
+  c.exposed = body.exposure.area[i];
+  c.weight = c.mode = c.dampingWeight = 0;
+  const double gyration = body.inertia[i] / body.mass[i];
+  const auto add = [&](double weight, double lever2) {
+    c.weight += weight;
+    c.mode += weight * (1 + lever2 / gyration);
+    c.dampingWeight += weight * std::sqrt(1 + lever2 / gyration);
+  };
+  if (c.core) add(1, 0);
+  c.lone = 1;
+  if (!(c.exposed > 0)) return;
+  add(c.balls, cells.reach[i] * cells.reach[i]);
+  const RigidProxy& proxy = m_proxies[c.proxy];
+  const ElementPose pose = poseOf(body, i, proxy);
+  m_faces.approach(proxy, pose.at, std::numeric_limits<double>::infinity());
+  // Stiffness of the points against shifts and turns of the element, for a mass and an inertia of 1.
+  Eigen::Matrix<double, 6, 6> stiff = Eigen::Matrix<double, 6, 6>::Zero(), damped = stiff;
+  double pressed = 0;
+  m_faces.visitFacing(cells, body.exposure, i, pose,
+                      [&](double weight, const Eigen::Vector3d& normal, const Eigen::Vector3d& lever) {
+                        Eigen::Matrix<double, 6, 1> way;
+                        way << normal, lever / std::sqrt(gyration);
+                        stiff += weight * way * way.transpose();
+                        damped += weight / way.norm() * way * way.transpose();
+                        pressed += weight;
+                      });
+  c.weight += pressed;
+  c.mode += largestEigenvalue(stiff);
+  c.dampingWeight += largestEigenvalue(damped);
+  c.lone = std::max({c.lone, c.balls, pressed});
+}
+
 // The mobility of each rigid body at its candidates, and the laws of contacts with it. An impulse J at a
 // point r from the centre moves that point by at most (1/m + r^2 / I) J.
 template <class Real>
 void RigidContacts<Real>::weigh(Bodies bodies) {
-  m_sides.clear();
-  for (const auto& body : bodies) m_sides.push_back(body->contact);
+  bool same = true;
+  for (Candidate& c : m_candidates) {
+    const Body<Real>& body = *bodies[c.body];
+    if (!body.cells) {
+      same = same && c.weight == 1;
+      c.weight = 1;
+    } else if (c.exposed != body.exposure.area[c.element]) {
+      same = false;
+      weighFaces(c, body);
+    }
+  }
+  if (same && !m_candidates.empty()) return;
   for (ProxyState& s : m_states) s.mobility = s.rate = 0;
   for (const Candidate& c : m_candidates) {
+    if (!(c.weight > 0)) continue;
     const RigidProxy& proxy = m_proxies[c.proxy];
     if (!proxy.isDynamic()) continue;
     const Body<Real>& body = *bodies[c.body];
     const Eigen::Vector3d x = body.origin + body.position[c.element];
-    const double mobility =
-        proxy.inverseMass + (x - proxy.position).squaredNorm() * proxy.inverseInertia.maxCoeff();
+    // It touches the body at one of the body's points.
+    const double reach = proxy.reach(), lever2 = std::min((x - proxy.position).squaredNorm(), reach * reach);
+    const double mobility = proxy.inverseMass + lever2 * proxy.inverseInertia.maxCoeff();
     m_states[c.proxy].mobility += mobility;
-    m_states[c.proxy].rate += mobility * body.contact.stiffness;
+    m_states[c.proxy].rate += c.weight * mobility * body.contact.stiffness;
   }
   soften(std::numeric_limits<double>::infinity());
+}
+
+template <class Real>
+ElementRates RigidContacts<Real>::ratesOf(const Candidate& c, const Body<Real>& body,
+                                          double& frequency2) const {
+  const ContactLaw<double>& law = m_states[c.proxy].laws[c.body];
+  const double moves = 1 / body.mass[c.element], turns = 1 / body.inertia[c.element];
+  if (!body.cells) {
+    frequency2 = law.stiffness * moves;
+    return contactRates(law, moves, turns, double(body.radius));
+  }
+  if (!(c.weight > 0)) return {};
+  frequency2 = c.lone * law.stiffness * moves;
+  const double reach = body.cells->reach[c.element], sliding = moves + reach * reach * turns;
+  return {
+      law.stiffness * c.mode * moves + law.tangential * sliding + law.rolling * turns,
+      law.damping * c.dampingWeight * moves + law.tangentialDamping * sliding + law.rollingDamping * turns};
 }
 
 template <class Real>
@@ -232,10 +315,36 @@ bool RigidContacts<Real>::expired(double skin) const {
   return false;
 }
 
+// Change of the speed of a fragment against a rigid body that the contacts of both make in a substep [m/s].
 template <class Real>
-bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Steps& steps, Touch& out) const {
+double RigidContacts<Real>::joltOf(const FragmentMotion& fragment, std::uint32_t proxy, double step) const {
+  return step *
+         (fragment.pressed * fragment.inverseMass + m_states[proxy].pressed * m_proxies[proxy].inverseMass);
+}
+
+// The load of a contact on an element at out.at.
+template <class Real>
+void RigidContacts<Real>::finish(const ContactMotion<double>& motion, const ContactLoad<double>& load,
+                                 Touch& out) {
+  const Eigen::Vector3d arm = out.at - out.x;
+  // The element gets the load in its own scalar; what is booked and given to the rigid body is exactly that.
+  const auto rounded = [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return v.cast<Real>().template cast<double>();
+  };
+  out.force = rounded(load.elastic + load.damping);
+  out.torque = rounded(arm.cross(load.elastic + load.damping) + load.elasticTorque + load.dampingTorque);
+  out.dampingForce = rounded(load.damping);
+  out.dampingTorque = rounded(arm.cross(load.damping) + load.dampingTorque);
+  out.energy = load.energy;
+  out.slipped = load.slipped;
+  out.power = load.elastic.dot(motion.approach) + load.elasticTorque.dot(motion.spin);
+}
+
+template <class Real>
+bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Steps& steps, Touch& out) {
   const std::uint32_t i = c.element;
   if (!body.alive[i]) return false;
+  if (body.cells) return touchFaces(c, body, steps, out);
   const RigidProxy& proxy = m_proxies[c.proxy];
   out.x = body.origin + body.position[i];
   const SurfacePoint surface = nearestPart(proxy, out.x);
@@ -271,48 +380,158 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   const double parting =
       (fragment.velocityAt(out.at) - proxy.velocity - proxy.spin.cross(out.at - proxy.position))
           .dot(motion.normal);
-  motion.withheld = withheld(
-      law.inelastic, parting,
-      steps.next * (fragment.pressed * fragment.inverseMass + m_states[c.proxy].pressed * proxy.inverseMass));
+  motion.withheld = withheld(law.inelastic, parting, joltOf(fragment, c.proxy, steps.next));
 
-  const ContactLoad<double> load = contactLoad(law, motion, steps.moved, c.memory);
-  // The element gets the load in its own scalar; what is booked and given to the rigid body is exactly that.
-  const auto rounded = [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
-    return v.cast<Real>().template cast<double>();
-  };
-  out.force = rounded(load.elastic + load.damping);
-  out.torque = rounded(arm.cross(load.elastic + load.damping) + load.elasticTorque + load.dampingTorque);
-  out.dampingForce = rounded(load.damping);
-  out.dampingTorque = rounded(arm.cross(load.damping) + load.dampingTorque);
-  out.energy = load.energy;
-  out.slipped = load.slipped;
-  out.power = load.elastic.dot(motion.approach) + load.elasticTorque.dot(motion.spin);
+  finish(motion, contactLoad(law, motion, steps.moved, c.memory), out);
   return true;
 }
 
+// Depth without force: that in which faces were first seen, or in which they are because they have just been
+// exposed, for what they cannot have come in the last step of `moved` seconds. It gives way as they leave.
 template <class Real>
-void RigidContacts<Real>::add(const Touch& t, const Candidate& c, Body<Real>& body, double sign) {
+double RigidContacts<Real>::sink(Candidate& c, const Body<Real>& body, double speed, double moved) const {
+  double deepest = 0;
+  for (const FaceHit& hit : m_faces.hits()) deepest = std::max(deepest, hit.depth);
+  FaceMemory& memory = c.faces;
+  const bool fresh = memory.deepest <= 0 || memory.area != body.exposure.area[c.element];
+  const double free = memory.deepest + 2 * moved * speed;
+  if (fresh && deepest > free) memory.sunk += deepest - free;
+  memory.area = body.exposure.area[c.element];
+  memory.deepest = deepest;
+  return memory.sunk = std::min(memory.sunk, deepest);
+}
+
+template <class Real>
+bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const Steps& steps, Touch& out) {
+  const std::uint32_t i = c.element;
+  const RigidProxy& proxy = m_proxies[c.proxy];
+  const CellFaces& cells = *body.cells;
+  out.x = body.origin + body.position[i];
+  ElementPose pose;
+  pose.at = proxy.orientation.conjugate() * (out.x - proxy.position);
+  const double reach = body.exposure.count[i] > 0 ? cells.reach[i] : 0;
+  const double distance = m_faces.approach(proxy, pose.at, reach);
+  if (distance >= std::max(reach, cells.core[i]) && !c.touching) {
+    c.faces = {};
+    return false;
+  }
+  const Eigen::Matrix3d turn = body.orientation(i).toRotationMatrix();
+  pose.turn = proxy.orientation.conjugate().toRotationMatrix() * turn;
+  m_faces.find(cells, body.exposure, i, pose, c.balls > 0);
+  // Of the element's points relative to the rigid body's: velocity + spin x arm.
+  const Eigen::Vector3d velocity =
+      body.velocity[i].template cast<double>() - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
+  ContactMotion<double> motion;
+  motion.spin = body.spin[i].template cast<double>() - proxy.spin;
+  const double fastest = velocity.norm() + motion.spin.norm() * cells.reach[i];
+  const ContactLaw<double>& law = m_states[c.proxy].laws[c.body];
+  const FragmentMotion& fragment = body.motions[body.motionOf[i]];
+  const Eigen::Vector3d parting =
+      fragment.velocityAt(out.x) - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
+  const FacePress press(
+      m_faces.hits(), law, sink(c, body, fastest, steps.moved),
+      {turn.transpose() * velocity, turn.transpose() * motion.spin, body.inertia[i] / body.mass[i]},
+      {turn.transpose() * parting, turn.transpose() * (fragment.spin - proxy.spin),
+       joltOf(fragment, c.proxy, steps.next)},
+      {m_moved, steps.next});
+  if (!(press.weight > 0)) {
+    out.slipped = lostAtParting(law, velocity, motion.spin, steps.moved, c.memory);
+    return false;
+  }
+  const Eigen::Vector3d arm = turn * press.at;
+  out.at = out.x + arm;
+  motion.normal = turn * press.normal;
+  motion.approach = velocity + motion.spin.cross(arm);
+  // Faces resist rolling by their shape; what is left is twisting, by their friction.
+  motion.spin = motion.normal * motion.normal.dot(motion.spin);
+  const double twisting = law.friction < 0 ? -1 : law.friction * press.spread;
+  ContactLoad<double> load = slidingLoad(law, motion, press.total, twisting, steps.moved, c.memory);
+  const Eigen::Vector3d pushed = turn * press.elastic, damped = turn * press.damping;
+  load.elastic += pushed;
+  load.damping += damped;
+  load.elasticTorque += turn * press.elasticTorque - arm.cross(pushed);
+  load.dampingTorque += turn * press.dampingTorque - arm.cross(damped);
+  load.energy += press.energy;
+  finish(motion, load, out);
+  return true;
+}
+
+// Takes what a contact does into this substep.
+template <class Real>
+void RigidContacts<Real>::add(const Touch& touch, Candidate& c, Body<Real>& body) {
+  c.push = std::uint32_t(m_pushes.size());
+  m_pushes.push_back({c.proxy, c.body, c.element, touch, 0});
+  m_pushes.back().before = pushPower(m_pushes.back(), body);
+  apply(m_pushes.back(), body, 1);
+}
+
+// Takes it out again, as it was.
+template <class Real>
+void RigidContacts<Real>::take(Candidate& c, Body<Real>& body) {
+  Push& push = m_pushes[c.push];
+  apply(push, body, -1);
+  push.touch = {};
+  push.before = 0;
+}
+
+template <class Real>
+void RigidContacts<Real>::apply(const Push& push, Body<Real>& body, double sign) {
   const auto to = [sign](const Eigen::Vector3d& v) -> Vec3<Real> { return (sign * v).cast<Real>(); };
-  body.force[c.element] += to(t.force);
-  body.torque[c.element] += to(t.torque);
-  body.dampingForce[c.element] += to(t.dampingForce);
-  body.dampingTorque[c.element] += to(t.dampingTorque);
-  ProxyState& state = m_states[c.proxy];
-  const Eigen::Vector3d arm = t.x - m_proxies[c.proxy].position;
+  const Touch& t = push.touch;
+  body.force[push.element] += to(t.force);
+  body.torque[push.element] += to(t.torque);
+  body.dampingForce[push.element] += to(t.dampingForce);
+  body.dampingTorque[push.element] += to(t.dampingTorque);
+  ProxyState& state = m_states[push.proxy];
+  const Eigen::Vector3d arm = t.x - m_proxies[push.proxy].position;
   state.force -= sign * t.force;
   state.torque -= sign * (arm.cross(t.force) + t.torque);
   state.dampingForce -= sign * t.dampingForce;
   state.dampingTorque -= sign * (arm.cross(t.dampingForce) + t.dampingTorque);
   state.size += sign * t.force.norm();
-  Push& push = m_pushes.emplace_back(c.proxy, c.body, c.element, sign * t.force, sign * t.torque);
-  push.before = pushPower(push, body);
+  m_elastic += sign * t.energy;
 }
 
 // What an element gets of a push, by its velocity as it is [W].
 template <class Real>
 double RigidContacts<Real>::pushPower(const Push& push, const Body<Real>& body) const {
-  return push.force.dot(body.velocity[push.element].template cast<double>()) +
-         push.torque.dot(body.spin[push.element].template cast<double>());
+  return push.touch.force.dot(body.velocity[push.element].template cast<double>()) +
+         push.touch.torque.dot(body.spin[push.element].template cast<double>());
+}
+
+template <class Real>
+typename RigidContacts<Real>::Motion RigidContacts<Real>::motionOf(const RigidProxy& proxy) {
+  return {proxy.position, proxy.velocity, proxy.spin, proxy.orientation};
+}
+
+template <class Real>
+void RigidContacts<Real>::setMotion(RigidProxy& proxy, const Motion& motion) {
+  proxy.position = motion.position;
+  proxy.velocity = motion.velocity;
+  proxy.spin = motion.spin;
+  proxy.orientation = motion.orientation;
+}
+
+// Between two ticks the host's own contacts and joints move a body. Its contacts end the last step where that
+// left it; what they have in them then and now is the host's work.
+template <class Real>
+bool RigidContacts<Real>::touchMoved(Candidate& c, const Body<Real>& body, const Steps& steps, double kick,
+                                     Books& books, Touch& out) {
+  RigidProxy& proxy = m_proxies[c.proxy];
+  const Motion now = motionOf(proxy);
+  Touch before;
+  setMotion(proxy, m_states[c.proxy].left);
+  const bool touched = touch(c, body, steps, before);
+  setMotion(proxy, now);
+  if (!touched) part(c.memory);
+  c.touching = touched;
+  const bool touches = touch(c, body, {0, steps.next}, out);
+  out.slipped = before.slipped;
+  const double work = out.energy - before.energy + 0.5 * kick * (out.power - before.power);
+  books.bullet.work.add(work, 0);
+  proxy.surplus -= work;
+  if (!touches) part(c.memory);
+  return touches;
 }
 
 template <class Real>
@@ -322,6 +541,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     s.pressed = std::exchange(s.size, 0);
   }
   m_pushes.clear();
+  m_moved = steps.moved;
   m_elastic = 0;
   for (const Kept& k : m_kept) m_elastic += k.energy;
   for (std::size_t p = 0; p < m_proxies.size(); ++p)
@@ -330,21 +550,20 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
   for (Candidate& c : m_candidates) {
     Body<Real>& body = *bodies[c.body];
     RigidProxy& proxy = m_proxies[c.proxy];
+    // More of it may touch than the step was chosen for: as if several contacts had begun.
+    if (body.cells && body.exposure.area[c.element] > c.exposed) body.touchesBegun[c.element] = 2;
     Touch t;
-    if (!touch(c, body, steps, t)) {
-      if (c.touching) {
-        slipped += t.slipped;
-        part(c.memory);
-        c.touching = false;
-        c.energy = 0;
-      }
+    const bool touched = c.touching;
+    c.touching =
+        m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, books, t) : touch(c, body, steps, t);
+    c.energy = t.energy;
+    slipped += t.slipped;
+    if (!c.touching) {
+      if (touched) part(c.memory);
       continue;
     }
-    if (!std::exchange(c.touching, true)) ++body.touchesBegun[c.element];
-    c.energy = t.energy;
-    m_elastic += t.energy;
-    slipped += t.slipped;
-    add(t, c, body, 1);
+    if (!touched) ++body.touchesBegun[c.element];
+    add(t, c, body);
     pushMotion(body, c.element, t.x, t.force, t.torque);
     const double size = kick * t.force.norm();
     proxy.contactPoint += size * t.at;
@@ -353,23 +572,48 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       proxy.touched.push_back(body.id);
   }
   books.dissipated.add(-slipped, 0);
-  for (std::size_t p = 0; p < m_proxies.size(); ++p)
-    if (std::exchange(m_states[p].shifted, false)) bookShift(m_states[p], m_proxies[p], books);
+  for (ProxyState& s : m_states) s.moved = false;
 }
 
 template <class Real>
-void RigidContacts<Real>::release(Bodies bodies, double step, double kick, Books& books) {
+void RigidContacts<Real>::release(Bodies bodies, double kick, Books& books) {
   for (Candidate& c : m_candidates) {
     Body<Real>& body = *bodies[c.body];
     if (!c.touching || !body.leaving[c.element]) continue;
-    Touch t;
-    if (!touch(c, body, {0, step}, t)) continue;
-    add(t, c, body, -1);
-    m_elastic -= t.energy;
-    books.elastic -= t.energy;
-    books.fracture += t.energy + 0.5 * kick * t.power;
-    c = {c.proxy, c.body, c.element, false, {}, 0};
+    const Touch before = m_pushes[c.push].touch;
+    take(c, body);
+    bookChange(before, {}, kick, books);
+    c.touching = false;
+    c.memory = {};
+    c.faces = {};
+    c.energy = 0;
   }
+}
+
+template <class Real>
+void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Books& books) {
+  for (Candidate& c : m_candidates) {
+    Body<Real>& body = *bodies[c.body];
+    if (!c.touching || !body.cells || c.faces.area == body.exposure.area[c.element]) continue;
+    const Touch before = m_pushes[c.push].touch;
+    take(c, body);
+    Touch now;
+    c.touching = touch(c, body, {0, step}, now);
+    c.energy = now.energy;
+    if (c.touching)
+      add(now, c, body);
+    else
+      part(c.memory);
+    bookChange(before, now, kick, books);
+  }
+}
+
+// The law of a contact has changed at this instant, because of a break: so has the energy in it, and up to
+// here the force before has done its half.
+template <class Real>
+void RigidContacts<Real>::bookChange(const Touch& before, const Touch& now, double kick, Books& books) const {
+  books.elastic += now.energy - before.energy;
+  books.fracture += before.energy - now.energy + 0.5 * kick * (before.power - now.power);
 }
 
 template <class Real>
@@ -411,8 +655,7 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
       proxy.orientation =
           (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
               .normalized();
-    m_states[p].position = proxy.position;
-    m_states[p].orientation = proxy.orientation;
+    m_states[p].left = motionOf(proxy);
   }
 }
 

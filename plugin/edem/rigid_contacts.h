@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "edem/face_touch.h"
 #include "edem/pair_lists.h"
 #include "edem/rigid_proxy.h"
 #include "edem/stable_step.h"
@@ -20,17 +21,24 @@ class RigidContacts {
   using Bodies = std::span<const std::unique_ptr<Body<Real>>>;
 
   /// Takes the proxies of a new tick; what contacts remember stays.
-  void beginTick(std::span<RigidProxy> proxies, Books& books);
-  /// Lists the elements within r + skin of each proxy. Holds until elements or proxies moved half the skin.
+  void beginTick(std::span<RigidProxy> proxies);
+  /// Lists the elements within their reach + skin of each proxy. Holds until elements or proxies moved half
+  /// the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);
   /// True when a proxy has moved more than half the skin since build.
   bool expired(double skin) const;
 
-  /// Visits visit(body, element, law, touching) for every candidate.
+  /// Takes faces that broke since the last call into the rates.
+  void weigh(Bodies bodies);
+  /// Visits visit(body, element, rates, touching, frequency2) for every candidate; frequency2 is that of the
+  /// contact alone [1/s^2].
   template <class Visit>
-  void visitRates(Visit&& visit) const {
-    for (const Candidate& c : m_candidates)
-      visit(c.body, c.element, m_states[c.proxy].laws[c.body], c.touching);
+  void visitRates(Bodies bodies, Visit&& visit) const {
+    for (const Candidate& c : m_candidates) {
+      double frequency2 = 0;
+      const ElementRates rates = ratesOf(c, *bodies[c.body], frequency2);
+      visit(c.body, c.element, rates, c.touching, frequency2);
+    }
   }
   /// Makes the contacts of light bodies softer, so that no rate of theirs passes a multiple of
   /// `frequency2`, that of the elements [1/s^2].
@@ -45,7 +53,9 @@ class RigidContacts {
   /// Contact forces on elements and proxies (paper 3.1.2, "interaction with other objects").
   void accumulate(Bodies bodies, const Steps& steps, double kick, Books& books);
   /// Takes the contacts of leaving elements out of this substep.
-  void release(Bodies bodies, double step, double kick, Books& books);
+  void release(Bodies bodies, double kick, Books& books);
+  /// Touches anew, in this substep, what breaks have exposed more of; once they are applied.
+  void expose(Bodies bodies, double step, double kick, Books& books);
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
   /// Energy in the contacts [J].
@@ -55,11 +65,26 @@ class RigidContacts {
   double maxSpeed() const;
 
  private:
+  // What faces remember of a rigid body beside their contact's memory.
+  struct FaceMemory {
+    double deepest = 0;  // at the last instant; 0: out of it [m]
+    double sunk = 0;     // depth without force: they were first seen as deep [m]
+    double area = 0;     // exposed at the last instant [m^2]
+  };
   struct Candidate {
     std::uint32_t proxy, body, element;
     bool touching = false;
     ContactMemory<double> memory;
     double energy = 0;  // at the last instant [J]
+    FaceMemory faces;
+    double weight = 0;         // sum of all that may press at once, over k_n
+    double mode = 0;           // its highest frequency^2, over k_n / m
+    double dampingWeight = 0;  // the same for its dashpots, over eta_n / m
+    double lone = 0;           // the weight of what acts at once, without levers
+    double balls = 0;          // weights of corners and spheres near
+    bool core = false;         // near
+    std::uint32_t push = 0;    // while touching: into m_pushes
+    double exposed = 0;        // area of exposed faces when the weights were taken [m^2]
   };
   // A contact that outlives the lists.
   struct Kept {
@@ -67,17 +92,20 @@ class RigidContacts {
     std::uint32_t body, element;  // id of the body
     ContactMemory<double> memory;
     double energy;
+    FaceMemory faces;
     bool touching;
     bool taken = false;
     auto name() const { return std::tie(key, body, element); }
   };
+  struct Motion {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  };
   struct ProxyState {
     std::uint64_t key = 0;
-    // Where the last tick left it; then, how far the host has moved it since.
-    Eigen::Vector3d position = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
-    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // rotation vector [rad]
-    bool shifted = false;
+    Motion left;         // when the last substep was over
+    bool moved = false;  // by the host since
     // On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
     Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
@@ -91,29 +119,42 @@ class RigidContacts {
     ElementRates rates;                    // of the rigid body, all candidates touching
     std::vector<ContactLaw<double>> laws;  // by body
   };
+  struct Touch {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();  // contact point, world [m]
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();   // centre of the element [m]
+    // On the element, in its own scalar, and their lost part.
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+    Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
+    double energy = 0, slipped = 0, power = 0;
+  };
+  // What a contact does in this substep.
   struct Push {
     std::uint32_t proxy, body, element;
-    Eigen::Vector3d force, torque;  // on the element
-    double before = 0;              // power on it, by its velocity before the substep [W]
-  };
-  struct Touch {
-    Eigen::Vector3d at;                           // contact point, world [m]
-    Eigen::Vector3d x;                            // centre of the element [m]
-    Eigen::Vector3d force, torque;                // on the element, in its own scalar
-    Eigen::Vector3d dampingForce, dampingTorque;  // their lost part
-    double energy = 0, slipped = 0, power = 0;
+    Touch touch;
+    double before = 0;  // power on the element, by its velocity before the substep [W]
   };
 
   void keepContacts();
-  void bookShift(const ProxyState& state, RigidProxy& proxy, Books& books) const;
   double pushPower(const Push& push, const Body<Real>& body) const;
   void endContacts(Bodies bodies);
   void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
                 const PairLists<Real>& lists);
   void remember(Candidate& candidate);
-  void weigh(Bodies bodies);
-  bool touch(Candidate& candidate, const Body<Real>& body, const Steps& steps, Touch& out) const;
-  void add(const Touch& touch, const Candidate& candidate, Body<Real>& body, double sign);
+  void weighFaces(Candidate& candidate, const Body<Real>& body);
+  ElementRates ratesOf(const Candidate& candidate, const Body<Real>& body, double& frequency2) const;
+  bool touchFaces(Candidate& candidate, const Body<Real>& body, const Steps& steps, Touch& out);
+  double sink(Candidate& candidate, const Body<Real>& body, double speed, double moved) const;
+  static void finish(const ContactMotion<double>& motion, const ContactLoad<double>& load, Touch& out);
+  double joltOf(const FragmentMotion& fragment, std::uint32_t proxy, double step) const;
+  bool touch(Candidate& candidate, const Body<Real>& body, const Steps& steps, Touch& out);
+  bool touchMoved(Candidate& candidate, const Body<Real>& body, const Steps& steps, double kick, Books& books,
+                  Touch& out);
+  static Motion motionOf(const RigidProxy& proxy);
+  static void setMotion(RigidProxy& proxy, const Motion& motion);
+  void add(const Touch& touch, Candidate& candidate, Body<Real>& body);
+  void take(Candidate& candidate, Body<Real>& body);
+  void apply(const Push& push, Body<Real>& body, double sign);
+  void bookChange(const Touch& before, const Touch& now, double kick, Books& books) const;
 
   std::span<RigidProxy> m_proxies;
   std::vector<ProxyState> m_states, m_before;  // of this tick, of the last
@@ -122,6 +163,8 @@ class RigidContacts {
   std::vector<Kept> m_kept;                    // between two lists, and while their body sleeps
   std::vector<ContactSide> m_sides;            // of the bodies, by place
   std::vector<Push> m_pushes;                  // on elements, in this substep
+  FaceTouch m_faces;
+  double m_moved = 0;  // length of the step before the last accumulate [s]
   double m_elastic = 0;
   double m_lost = 0;  // energy of contacts that ended between two substeps [J]
 };

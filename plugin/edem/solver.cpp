@@ -102,8 +102,8 @@ class SolverOf final : public Solver {
     for (std::size_t i = 0; i < b.elementCount(); ++i)
       if (b.alive[i]) box.extend(b.worldPosition(i));
     if (box.isEmpty()) return box;
-    box.min().array() -= double(b.radius);
-    box.max().array() += double(b.radius);
+    box.min().array() -= b.reach();
+    box.max().array() += b.reach();
     return box;
   }
   double maxSpeed(std::uint32_t id) const override { return speedOf(of(id)); }
@@ -239,7 +239,7 @@ void SolverOf<Real>::tick(double dt, const Eigen::Vector3d& gravity, std::span<R
   m_report.warning.clear();
   if (!std::isfinite(dt)) m_failure = "the time step is not finite";
   if (!m_failure.empty() || !(dt > 0)) return;
-  m_rigid.beginTick(proxies, m_books);
+  m_rigid.beginTick(proxies);
   m_stepLength.beginTick(m_bodies);
   for (auto& body : m_bodies)
     if (!body->asleep || body->motions.empty()) beginMotions(*body);
@@ -294,10 +294,11 @@ void SolverOf<Real>::substep(double kick, double step, const Eigen::Vector3d& gr
   if (anyCrushed) {
     for (PairList<Real>& l : m_lists.lists())
       releaseContacts(l, *m_bodies[l.first], *m_bodies[l.second], step, kick, m_books);
-    m_rigid.release(m_bodies, step, kick, m_books);
+    m_rigid.release(m_bodies, kick, m_books);
   }
   for (std::uint32_t b = 0; b < m_bodies.size(); ++b)
     if (!m_bodies[b]->asleep) applyBreaks(*m_bodies[b], b, kick, m_lists, m_books, m_report);
+  if (m_report.broken.size() > brokenBegin) m_rigid.expose(m_bodies, step, kick, m_books);
 
   m_books.mass = m_books.kinetic = 0;
   m_books.linear = m_books.angular = Eigen::Vector3d::Zero();

@@ -66,7 +66,7 @@ class Solver {
   virtual Eigen::Vector3d spin(std::uint32_t id, std::size_t element) const = 0;
   virtual Eigen::Quaterniond orientation(std::uint32_t id, std::size_t element) const = 0;
   virtual Eigen::AlignedBox3d bounds(
-      std::uint32_t id) const = 0;  ///< of the living elements' spheres; empty if none
+      std::uint32_t id) const = 0;  ///< of what rigid bodies touch of the living elements; empty if none
   virtual double maxSpeed(
       std::uint32_t id) const = 0;  ///< of element centres, and of their surfaces by spin [m/s]
   virtual double radius(std::uint32_t id) const = 0;

@@ -73,9 +73,11 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
       if (!b.asleep) addContact(l.second, e.second, ratesOf(law, b, e.second), e.touching);
     }
   }
-  rigid.visitRates([&](std::uint32_t place, std::uint32_t i, const ContactLaw<double>& law, bool touching) {
-    addContact(place, i, ratesOf(law, *bodies[place], i), touching);
-    m_contact2 = std::max(m_contact2, law.stiffness / bodies[place]->mass[i]);
+  rigid.weigh(bodies);
+  rigid.visitRates(bodies, [&](std::uint32_t place, std::uint32_t i, const ElementRates& rates, bool touching,
+                               double frequency2) {
+    addContact(place, i, rates, touching);
+    m_contact2 = std::max(m_contact2, frequency2);
   });
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     bodies[b]->touchesBegun.assign(bodies[b]->elementCount(), 0);

@@ -100,6 +100,7 @@ TYPED_TEST(RestingContact, RollingElementStops) {
   def.material.contactDamping = 0.3;
   def.material.friction = 0.6;
   def.material.rollingFriction = 0.1;
+  def.model.cellFaces = false;
   this->solver->addBody(def, kNoGravity);
   std::vector<edem::RigidProxy> proxies = {plane()};
   this->run(4, kFrame, proxies);
@@ -114,22 +115,37 @@ TYPED_TEST(RestingContact, RollingElementStops) {
 }
 
 TYPED_TEST(RestingContact, OneElementStaysOnASlope) {
-  // The grid's box of a single element is a point.
-  for (const double degrees : {10.0, 30.0}) {
-    this->solver = makeSolver<TypeParam>(false);
-    edem::BodyDef def = block({1, 1, 1});
-    def.transform.translation() = Eigen::Vector3d(0, 0.15, 0);
-    def.material.friction = 0.6;
-    def.material.rollingFriction = 0;
-    def.material.contactDamping = 0.3;
-    this->solver->addBody(def, kNoGravity);
-    std::vector<edem::RigidProxy> proxies = {plane(degrees)};
-    const Eigen::Vector3d normal = proxies[0].parts[0].size;
-    for (int t = 0; t < 120; ++t) {
-      this->run(kFrame, kFrame, proxies);
-      EXPECT_GT(this->solver->position(0, 0).dot(normal), 0.095);
+  // The grid's box of a single element is a point. As a sphere it rolls down; as a cube it stands, for the
+  // tangents of both slopes are below the friction of 0.6.
+  for (const bool faces : {false, true}) {
+    for (const bool onBox : {false, true}) {
+      for (const double degrees : {10.0, 25.0}) {
+        this->solver = makeSolver<TypeParam>(false);
+        edem::BodyDef def = block({1, 1, 1});
+        def.transform.translation() = Eigen::Vector3d(0, 0.15, 0);
+        def.material.friction = 0.6;
+        def.material.rollingFriction = 0;
+        def.material.contactDamping = 0.3;
+        def.model.cellFaces = faces;
+        this->solver->addBody(def, kNoGravity);
+        std::vector<edem::RigidProxy> proxies = {plane(degrees)};
+        const Eigen::Vector3d normal = proxies[0].parts[0].size;
+        if (onBox) {
+          proxies = {fixedBox({20, 0.5, 20}, -0.5 * normal)};
+          proxies[0].orientation = Eigen::AngleAxisd(-degrees * kDegree, Eigen::Vector3d::UnitZ());
+          proxies[0].friction = 1;
+        }
+        for (int t = 0; t < 120; ++t) {
+          this->run(kFrame, kFrame, proxies);
+          ASSERT_GT(this->solver->position(0, 0).dot(normal), 0.095);
+        }
+        if (faces)
+          EXPECT_LT(this->solver->maxSpeed(0), 1e-3) << degrees << (onBox ? " on a box" : " on a plane");
+        else
+          EXPECT_GT(this->solver->position(0, 0).x(), 0.2)
+              << degrees << (onBox ? " on a box" : " on a plane");
+      }
     }
-    EXPECT_GT(this->solver->position(0, 0).x(), 0.2) << "it rolls";
   }
 }
 

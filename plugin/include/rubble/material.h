@@ -10,14 +10,14 @@ namespace rubble {
 /// All constants of a material. Presets: `material("concrete_soft")` and others, see materialNames().
 struct Material {
   std::string name = "concrete_soft";
-  double density = 2400;               ///< of the solid [kg/m^3], > 0
-  double youngsModulus = 30e6;         ///< E of the pore springs, k = E A / |d0| [Pa], > 0
-  double tensileStrength = 0.33e6;     ///< f_t of the solid [Pa], >= 0
-  double compressiveStrength = 3.3e6;  ///< f_c of the solid [Pa], >= f_t
+  double density = 2400;             ///< of the solid [kg/m^3], > 0
+  double youngsModulus = 30e6;       ///< E of the pore springs, k = E A / |d0| [Pa], > 0
+  double tensileStrength = 0.2e6;    ///< f_t of the solid [Pa], >= 0
+  double compressiveStrength = 2e6;  ///< f_c of the solid [Pa], >= f_t
   /// Relative rotation at which a spring breaks under the paper's criterion [rad], > 0.
-  double breakingAngle = 0.022;
+  double breakingAngle = 0.013;
   /// |dx| / |d0| at which a spring breaks under the paper's criterion, dimensionless.
-  double stretchThreshold = 0.011;
+  double stretchThreshold = 0.0067;
   /// Damping ratio xi of the springs' dashpots at the highest frequency, 0 to 0.5.
   double springDamping = 0.03;
   double contactStiffness = 0.5;  ///< k_cn = contactStiffness E h [-], h the element spacing
@@ -29,7 +29,7 @@ struct Material {
 
   double bondWorkIndex = 13.5;  ///< Wi [kWh/t]; measured for the real material
   /// Share of Bond's (mill) energy that fracture energy must supply, dimensionless; chosen.
-  double crushEfficiency = 1e-2;
+  double crushEfficiency = 4e-3;
   double sizeModulus = 0.7;  ///< m of the Gaudin-Schuhmann distribution, 0 < m <= 1
   double dustRadius = 1e-6;  ///< R_dust, radius of the largest dust grain [m]
   /// Relative speed of debris / speed of the element, the paper's user value, dimensionless.
@@ -66,6 +66,8 @@ struct Model {
   bool coulombFriction = true;  ///< friction limited by mu |F_n|; off in the paper
   /// Contacts remember what slid and rolled: things stand on slopes and come to rest; off in the paper.
   bool contactMemory = true;
+  /// Rigid bodies touch the outer and broken faces of the cells, not the elements' spheres; off in the paper.
+  bool cellFaces = true;
   bool conserveDebris = true;  ///< debris keep momentum, spin and energy of their element
   DebrisSizes debrisSizes = DebrisSizes::Mass;
   CellJoining cellJoining = CellJoining::Transitive;

@@ -1,0 +1,107 @@
+// Where the exposed faces of an element and a rigid body are in each other.
+#pragma once
+
+#include <vector>
+
+#include "edem/cell_faces.h"
+#include "edem/collider.h"
+#include "edem/contact.h"
+#include "edem/rigid_proxy.h"
+
+namespace rubble::edem {
+
+/// A point of an element that is in a rigid body, or a point of a rigid body that is in an element. It acts
+/// with the energy weight k_n depth^2 / 2. Axes of the element at rest, about its centre.
+struct FaceHit {
+  Eigen::Vector3d at;      ///< [m]
+  Eigen::Vector3d normal;  ///< unit, out of the rigid body
+  Eigen::Vector3d area;    ///< vector area over h^2 whose share against `normal` is the weight; or zero
+  double depth;            ///< > 0 [m]
+  double weight;           ///< stiffness over k_n
+};
+
+/// An element in the frame of a rigid body.
+struct ElementPose {
+  Eigen::Vector3d at;    ///< [m]
+  Eigen::Matrix3d turn;  ///< from the axes of the element at rest
+};
+
+/// Finds the hits of elements at rigid bodies. Keeps its memory between calls.
+class FaceTouch {
+ public:
+  /// Signed distance from `at`, the element's centre in the frame of the rigid body, to the nearest surface
+  /// of its parts [m]. Notes which parts are within `reach`.
+  double approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach);
+  /// The hits at those parts.
+  ///   - Points of exposed faces in planes, boxes and hulls.
+  ///   - Spheres, and corners of boxes and hulls, at the nearest point of the exposed faces.
+  ///   - The element's core.
+  /// `balls`: false where no sphere or corner is near.
+  void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
+            bool balls);
+  std::span<const FaceHit> hits() const { return m_hits; }
+  /// visit(weight, normal, lever [m]) for every exposed point that looks at a part that approach() noted.
+  template <class Visit>
+  void visitFacing(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                   const ElementPose& pose, Visit&& visit) const {
+    for (const Near& n : m_near) {
+      if (n.part->kind == Collider::Kind::Sphere) continue;
+      const Eigen::Vector3d normal = pose.turn.transpose() * n.centre.normal;
+      for (const ExposedPoint& p : exposure.of(cells, element)) {
+        const double facing = -p.area.dot(normal);
+        if (facing > 0) visit(facing / cells.unit, normal, Eigen::Vector3d(p.at.cross(normal)));
+      }
+    }
+  }
+
+ private:
+  struct Near {
+    const Collider* part;
+    SurfacePoint centre;     // nearest to the element's centre, frame of the rigid body
+    Eigen::Vector3d normal;  // of it, axes of the element
+  };
+
+  void findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                  const ElementPose& pose);
+  void findBalls(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                 const ElementPose& pose);
+
+  std::vector<Near> m_near;
+  std::vector<FaceHit> m_hits;
+  SurfacePoint m_nearest{0, Eigen::Vector3d::UnitY()};
+};
+
+/// Motion of an element relative to a rigid body, axes of the element at rest: its point x has the velocity
+/// `centre` + `spin` x x.
+struct ElementMotion {
+  Eigen::Vector3d centre, spin;
+  double gyration;  ///< of the element, inertia / mass [m^2]
+};
+
+/// Motion of an element's fragment relative to a rigid body, in the same axes and about the same point.
+struct PartingMotion {
+  Eigen::Vector3d centre, spin;
+  double jolt;  ///< see withheld in fragment_motion.h [m/s]
+};
+
+/// The normal forces of all hits as one contact; axes of the element at rest, torques about its centre.
+struct FacePress {
+  Eigen::Vector3d elastic = Eigen::Vector3d::Zero(), damping = Eigen::Vector3d::Zero();              // [N]
+  Eigen::Vector3d elasticTorque = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();  // [N m]
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();      // centroid of the pressure [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, out of the rigid body
+  double total = 0;                                  // force along it [N]
+  double spread = 0;                                 // mean distance of the pressure from its centroid [m]
+  double weight = 0;                                 // sum of the hits' weight times depth; 0: no contact
+  double energy = 0;                                 // [J]
+
+  /// `sunk` is taken off every depth. Each hit has its share of the law's dashpot, less at a lever, where the
+  /// element is lighter, never pulls, and withholds force by the speed at which the fragment parts there.
+  FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, double sunk,
+            const ElementMotion& motion, const PartingMotion& fragment, const Steps& steps);
+};
+
+/// Sum of the weights that corners or the sphere of the body may have within `reach` of `at` (frame of the
+/// rigid body) [-].
+double ballWeights(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach);
+}  // namespace rubble::edem

@@ -1,0 +1,219 @@
+// Rigid bodies against the faces of the cells.
+#include "physics/strength_cube.h"
+
+namespace rubble::test {
+namespace {
+
+constexpr double kEdge = 0.2;                           // of a cube of the block [m]
+constexpr double kMass = 2400 * kEdge * kEdge * kEdge;  // [kg]
+constexpr double kStiffness = 0.5 * 30e6 * kEdge;       // k_n of concrete_soft [N/m]
+constexpr double kWeight = kMass * 9.81;                // [N]
+
+edem::RigidProxy fixed(const edem::Collider& part, const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+  edem::RigidProxy proxy;
+  proxy.position = at;
+  proxy.friction = 1;
+  proxy.parts = {part};
+  return proxy;
+}
+
+edem::Collider plane() {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Plane;
+  part.size = Eigen::Vector3d::UnitY();
+  return part;
+}
+
+edem::Collider box(const Eigen::Vector3d& half) {
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Box;
+  part.size = half;
+  return part;
+}
+
+// A box as a hull.
+edem::Collider hull(const Eigen::Vector3d& half) {
+  auto hull = std::make_shared<edem::Hull>();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      edem::Hull::Face face;
+      face.normal = side * Eigen::Vector3d::Unit(axis);
+      face.offset = half[axis];
+      constexpr std::array<std::array<double, 2>, 4> kRound{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+      for (unsigned c = 0; c < 4; ++c) {
+        const auto& at = kRound[side > 0 ? c : 3 - c];
+        Eigen::Vector3d v = half[axis] * face.normal;
+        v[(axis + 1) % 3] = at[0] * half[(axis + 1) % 3];
+        v[(axis + 2) % 3] = at[1] * half[(axis + 2) % 3];
+        face.vertices.push_back(v);
+      }
+      hull->faces.push_back(face);
+    }
+  }
+  edem::listCorners(*hull);
+  edem::Collider part;
+  part.kind = edem::Collider::Kind::Hull;
+  part.hull = hull;
+  return part;
+}
+
+edem::Collider sphere(double radius) {
+  edem::Collider part;
+  part.size.setConstant(radius);
+  return part;
+}
+
+edem::BodyDef dampedBlock(const std::array<int, 3>& cubes) {
+  edem::BodyDef def = block(cubes);
+  def.material.springDamping = 0.1;
+  def.material.contactDamping = 0.5;
+  return def;
+}
+
+template <class Real>
+class FaceContact : public ::testing::Test {
+ protected:
+  void run(double seconds, std::vector<edem::RigidProxy>& proxies, const Eigen::Vector3d& gravity) {
+    for (int t = 0; t < int(seconds / kFrame + 0.5); ++t) {
+      solver->tick(kFrame, gravity, proxies);
+      ASSERT_EQ(solver->failure(), "");
+      fastest = std::max(fastest, solver->maxSpeed(0));
+    }
+  }
+  // Overlap at rest of a block of 2 x 2 x 2 on a surface whose top is at y = 0.
+  double overlapOn(const edem::RigidProxy& ground) {
+    solver = makeSolver<Real>(false);
+    solver->addBody(dampedBlock({2, 2, 2}), kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {ground};
+    run(2, proxies, kGravity);
+    EXPECT_LT(solver->maxSpeed(0), 1e-3);
+    return kEdge / 2 - solver->position(0, 0).y();
+  }
+  std::unique_ptr<edem::Solver> solver = makeSolver<Real>(false);
+  double fastest = 0;
+};
+TYPED_TEST_SUITE(FaceContact, Scalars);
+
+TYPED_TEST(FaceContact, BlockRestsFlatOnEveryShape) {
+  // Each lower element carries two: overlap = 2 m g / k_n. A hull's corners and a compound's seam do not add.
+  const double overlap = 2 * kWeight / kStiffness;
+  const Eigen::Vector3d half(1, 0.5, 1), below(0.2, -0.5, 0.2);
+  EXPECT_NEAR(this->overlapOn(fixed(plane())), overlap, 0.02 * overlap) << "plane";
+  EXPECT_NEAR(this->overlapOn(fixed(box(half), below)), overlap, 0.02 * overlap) << "box";
+  EXPECT_NEAR(this->overlapOn(fixed(hull(half), below)), overlap, 0.02 * overlap) << "hull";
+  // The seam lies under the middle of cubes.
+  edem::RigidProxy compound = fixed(box(half), {0.3, -0.5, 0.2});
+  compound.parts.push_back(hull(half));
+  for (edem::Collider& part : compound.parts)
+    part.place.translation().x() = &part == &compound.parts[0] ? -1 : 1;
+  EXPECT_NEAR(this->overlapOn(compound), overlap, 0.02 * overlap) << "compound";
+}
+
+TYPED_TEST(FaceContact, ABallOnABlockIsCarriedAnywhere) {
+  // On the middle of a cube, on a seam and on a crossing of seams its lowest point is at the top face, to the
+  // overlap of a light body.
+  for (const Eigen::Vector2d& at :
+       {Eigen::Vector2d(0.3, 0.3), Eigen::Vector2d(0.2, 0.3), Eigen::Vector2d(0.2, 0.2)}) {
+    this->solver = makeSolver<TypeParam>(false);
+    edem::BodyDef def = block({3, 1, 3}, true);
+    def.material.contactDamping = 0.5;
+    def.material.springDamping = 0.1;
+    this->solver->addBody(def, kNoGravity);
+    const double mass = 0.5, radius = 0.02;
+    std::vector<edem::RigidProxy> proxies = {ball(radius, mass, {at.x(), kEdge + radius, at.y()}, {0, 0, 0})};
+    proxies[0].acceleration = kGravity;
+    this->run(1, proxies, kNoGravity);
+    EXPECT_NEAR(proxies[0].position.y(), kEdge + radius, 1e-3 * radius) << at.transpose();
+    EXPECT_LT(proxies[0].velocity.norm(), 1e-4);
+  }
+}
+
+TYPED_TEST(FaceContact, ABallRollsOnABlockAsOnARigidRamp) {
+  // A sphere that rolls: a = 5/7 g sin.
+  constexpr double kAngle = 0.15, kTime = 0.5;
+  edem::BodyDef def = block({8, 1, 3}, true);
+  def.material.contactDamping = 0.3;
+  def.material.springDamping = 0.1;
+  def.material.friction = 0.6;
+  this->solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {ball(0.05, 1, {0.13, kEdge + 0.05, 0.31}, {0, 0, 0})};
+  proxies[0].friction = 1;
+  proxies[0].acceleration = 9.81 * Eigen::Vector3d(std::sin(kAngle), -std::cos(kAngle), 0);
+  this->run(kTime, proxies, kNoGravity);
+  const double way = 0.5 * 5.0 / 7 * 9.81 * std::sin(kAngle) * kTime * kTime;
+  EXPECT_NEAR(proxies[0].position.x() - 0.13, way, 0.02 * way);
+  EXPECT_NEAR(proxies[0].position.z(), 0.31, 0.01 * way);
+}
+
+TYPED_TEST(FaceContact, ASmallBallIsStoppedWhereverItIsAimed) {
+  for (int k = 0; k < 25; ++k) {
+    this->solver = makeSolver<TypeParam>(false);
+    edem::BodyDef def = block({4, 4, 1}, true, 0.05);
+    def.material.contactDamping = 0.3;
+    this->solver->addBody(def, kNoGravity);
+    const double x = 0.05 + 0.02 * (k % 5), y = 0.1 + 0.02 * (k / 5);
+    std::vector<edem::RigidProxy> proxies = {ball(0.005, 0.004, {x, y, 0.1}, {0, 0, -20})};
+    this->run(0.1, proxies, kNoGravity);
+    EXPECT_GT(proxies[0].position.z(), 0.05) << x << ", " << y;
+    EXPECT_GT(proxies[0].velocity.z(), 0) << x << ", " << y;
+  }
+}
+
+TYPED_TEST(FaceContact, ABouncingBlockKeepsItsEnergy) {
+  // Flat, on an edge and on a corner, without damping or friction.
+  for (const double turn : {0.0, 0.4, 0.7}) {
+    this->solver = makeSolver<TypeParam>(false);
+    edem::BodyDef def = block({2, 2, 2});
+    def.material.restitution = 1;
+    def.transform = Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 0, 0.5 + turn).normalized());
+    def.transform.translation().y() = 0.3;
+    def.velocity = Eigen::Vector3d(0, -3, 0);
+    this->solver->addBody(def, kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {fixed(plane())};
+    proxies[0].restitution = 1;
+    this->run(0.5, proxies, kNoGravity);
+    const edem::Books& b = this->solver->books();
+    EXPECT_GT(b.bullet.linear.y(), 100) << "it has met the plane";
+    EXPECT_NEAR(b.kinetic + b.elastic - b.dissipated.done(), b.initialEnergy, 1e-3 * b.initialEnergy) << turn;
+  }
+}
+
+TYPED_TEST(FaceContact, FirstSeenDeepGivesNoKick) {
+  const edem::Collider shapes[] = {plane(), box({1, 1, 1}), hull({1, 1, 1}), sphere(1)};
+  for (const edem::Collider& part : shapes) {
+    this->solver = makeSolver<TypeParam>(false);
+    this->fastest = 0;
+    this->solver->addBody(block({2, 2, 2}), kNoGravity);
+    const bool isPlane = part.kind == edem::Collider::Kind::Plane;
+    std::vector<edem::RigidProxy> proxies = {fixed(part, {0.2, isPlane ? 0.05 : -0.95, 0.2})};
+    this->run(0.5, proxies, kNoGravity);
+    EXPECT_LT(this->fastest, 0.01) << int(part.kind);
+  }
+}
+
+TYPED_TEST(FaceContact, APackedCubeBearsOnAllItsSurface) {
+  edem::BodyDef def;
+  def.asset = packedCube(216, 1);
+  def.anchored = false;
+  def.material.springDamping = 0.2;
+  def.material.contactDamping = 0.5;
+  def.transform.translation().y() = kCubeEdge / 2;
+  this->solver->addBody(def, kNoGravity);
+  // A lid of 200 kg: what the elements bear is read from the way they sink between two gravities.
+  std::vector<edem::RigidProxy> proxies = {fixed(plane())};
+  this->run(2, proxies, kGravity);
+  const Asset& asset = *def.asset;
+  // Pressure rho g H on every outer face at the bottom: depth = p h / (E / 2), to the solid's own strain.
+  const double depth = 2400 * 9.81 * kCubeEdge * asset.spacing() / (0.5 * 30e6);
+  for (std::uint32_t i = 0; i < asset.elementCount(); ++i) {
+    for (const CellFace& face : asset.cellFaces(i)) {
+      if (face.neighbour != kNoElement || face.normal.y() > -0.9f) continue;
+      const Eigen::Vector3d arm = face.centroid.cast<double>() - asset.positions[i];
+      const double y = (this->solver->position(0, i) + this->solver->orientation(0, i) * arm).y();
+      EXPECT_NEAR(-y, depth, 0.3 * depth) << "element " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rubble::test
