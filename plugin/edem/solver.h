@@ -11,17 +11,11 @@
 #include "edem/body.h"
 #include "edem/books.h"
 #include "edem/rigid_proxy.h"
+#include "edem/solver_def.h"
 #include "edem/stages.h"
 #include "edem/static_rest.h"
 
 namespace rubble::edem {
-
-struct SolverDef {
-  double substepSafety = 0.9;       ///< share of the stable substep that is used
-  int maxSubstepsPerFrame = 20000;  ///< in 1/60 s; a body that needs more is refused
-  bool breaking = true;
-  bool crushing = true;
-};
 
 /// Motion and shape of one body for its host, world frame, SI.
 struct BodyView {

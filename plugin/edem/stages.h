@@ -1,4 +1,4 @@
-// The stages of one substep, in their order. Each is a free function on plain arrays; solver.cpp calls them.
+// The stages of one substep, in their order. Each is a free function on plain arrays; tick.cpp calls them.
 #pragma once
 
 #include <span>

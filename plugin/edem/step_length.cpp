@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+
+#include "rubble/error.h"
 
 namespace rubble::edem {
 namespace {
@@ -103,6 +106,18 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   rigid.visitProxyRates([&](std::uint32_t place, std::uint32_t i, const ElementRates& proxy) {
     add(place, m_rates[place][i], proxy);
   });
+}
+
+void requireStep(const std::string& material, double step, const SolverDef& def) {
+  const double substeps = std::ceil(1.0 / 60 / step);
+  if (substeps <= def.maxSubstepsPerFrame) return;
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "material %s: stable substep is %.3g s, which is %.0f substeps in 1/60 s; "
+                "max_substeps_per_frame is %d: raise it, or lower the material's youngsModulus, or use "
+                "larger elements",
+                material.c_str(), step, substeps, def.maxSubstepsPerFrame);
+  throw Error(text);
 }
 
 template class StepLength<float>;

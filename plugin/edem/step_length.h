@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "edem/body.h"
 #include "edem/pair_lists.h"
 #include "edem/rigid_contacts.h"
+#include "edem/solver_def.h"
 #include "edem/stable_step.h"
 
 namespace rubble::edem {
@@ -42,6 +44,9 @@ class StepLength {
   double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
   std::uint32_t m_stiffest = 0;
 };
+
+/// Throws rubble::Error when a material's stable `step` [s] is more than a frame may have.
+void requireStep(const std::string& material, double step, const SolverDef& def);
 
 extern template class StepLength<float>;
 extern template class StepLength<double>;

@@ -1,0 +1,78 @@
+#include "edem/body_queries.h"
+
+#include <algorithm>
+#include <span>
+
+namespace rubble::edem {
+
+template <class Real>
+RateBound bodyBound(const Body<Real>& body) {
+  std::vector<ElementRates> rates(body.elementCount());
+  springRates(body, std::span(rates));
+  RateBound bound = springBound(body, std::span<const ElementRates>(rates));
+  // Any element may press another, or a rigid body, beside its springs.
+  const ContactLaw<double> law = contactLaw(body.contact, body.contact);
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    ElementRates contact = rates[i];
+    const ElementRates one = contactRates(law, 1 / body.mass[i], 1 / body.inertia[i], double(body.radius));
+    contact.stiffness += one.stiffness;
+    contact.damping += one.damping;
+    bound.add(contact, {});
+  }
+  return bound;
+}
+
+template <class Real>
+double speedOf(const Body<Real>& b) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < b.elementCount(); ++i)
+    if (b.alive[i])
+      fastest = std::max(fastest, double(b.velocity[i].norm()) + double(b.radius) * double(b.spin[i].norm()));
+  return fastest;
+}
+
+template <class Real>
+Eigen::AlignedBox3d boundsOf(const Body<Real>& b) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < b.elementCount(); ++i)
+    if (b.alive[i]) box.extend(b.worldPosition(i));
+  if (box.isEmpty()) return box;
+  box.min().array() -= b.reach();
+  box.max().array() += b.reach();
+  return box;
+}
+
+template <class Real>
+void elementsIn(const Body<Real>& body, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) {
+  out.clear();
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i] && box.contains(body.worldPosition(i))) out.push_back(i);
+}
+
+template <class Real>
+void addTo(base::Fnv1a& hash, const Body<Real>& body) {
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.displacement)));
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.velocity)));
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.spin)));
+  hash.add(std::as_bytes(std::span<const Quat<Real>>(body.rotation)));
+  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.alive)));
+  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.intact)));
+  hash.add(std::as_bytes(std::span<const std::uint32_t>(body.frameOf)));
+  for (const Frame& f : body.frames) {
+    hash.add(std::as_bytes(std::span<const double>(f.origin.data(), 3)));
+    hash.add(std::as_bytes(std::span<const double>(f.turn.coeffs().data(), 4)));
+  }
+}
+
+template RateBound bodyBound(const Body<float>&);
+template RateBound bodyBound(const Body<double>&);
+template double speedOf(const Body<float>&);
+template double speedOf(const Body<double>&);
+template Eigen::AlignedBox3d boundsOf(const Body<float>&);
+template Eigen::AlignedBox3d boundsOf(const Body<double>&);
+template void elementsIn(const Body<float>&, const Eigen::AlignedBox3d&, std::vector<std::uint32_t>&);
+template void elementsIn(const Body<double>&, const Eigen::AlignedBox3d&, std::vector<std::uint32_t>&);
+template void addTo(base::Fnv1a&, const Body<float>&);
+template void addTo(base::Fnv1a&, const Body<double>&);
+
+}  // namespace rubble::edem

@@ -1,0 +1,209 @@
+#include "edem/tick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "base/stopwatch.h"
+#include "edem/body_queries.h"
+#include "edem/damping.h"
+#include "edem/fragment_motion.h"
+#include "edem/frames.h"
+
+namespace rubble::edem {
+namespace {
+
+// Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
+constexpr double kSkinRadii = 0.5;
+// An element may not pass more than this share of its radius in a substep, or thin things are missed.
+constexpr double kTravelShare = 0.25;
+
+template <class Real>
+void list(World<Real>& w) {
+  const base::ScopeTimer timer(w.report.listing);
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& body : w.bodies) radius = std::min(radius, double(body->radius));
+  w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * radius);
+  w.rigid.build(w.bodies, w.lists);
+  w.listsStale = false;
+}
+
+// Lists anew what is out of date; true if anything was.
+template <class Real>
+bool refreshLists(World<Real>& w) {
+  if (w.listsStale) {
+    list(w);
+  } else if (w.rigid.expired(w.lists.skin())) {
+    w.rigid.build(w.bodies, w.lists);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+// What has broken free parts from what it hits as itself, not when the tick is over: restitution would depend
+// on the tick.
+template <class Real>
+void refreshFragments(World<Real>& w) {
+  for (auto& body : w.bodies) {
+    if (body->asleep || body->labelledBroken == body->brokenCount) continue;
+    labelFragments(*body);
+    beginMotions(*body);
+  }
+}
+
+// More contacts began at an element than the step was chosen for.
+template <class Real>
+bool contactsBegan(const World<Real>& w) {
+  return std::any_of(w.bodies.begin(), w.bodies.end(), [](const auto& body) {
+    const auto& begun = body->touchesBegun;
+    return !body->asleep && std::any_of(begun.begin(), begun.end(), [](std::uint16_t n) { return n > 1; });
+  });
+}
+
+// Longest safe step of a tick of `dt` as things are now [s]; a tick that would need too many fails.
+template <class Real>
+double longestStep(World<Real>& w, double dt) {
+  w.stepLength.bound(w.bodies, w.lists, w.rigid);
+  const double stable = std::min(w.def.substepSafety * w.stepLength.stable(), w.stepLength.resolving());
+  double speed = w.rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
+  for (const auto& body : w.bodies) {
+    if (body->asleep) continue;
+    speed = std::max(speed, speedOf(*body));
+    radius = std::min(radius, double(body->radius));
+  }
+  const bool travels = speed > 0 && std::isfinite(radius);
+  const double travel = travels ? kTravelShare * radius / speed : std::numeric_limits<double>::infinity();
+  const double shortest = 1.0 / 60 / w.def.maxSubstepsPerFrame * (1 - 1e-9);
+  char text[200];
+  if (stable < shortest) {
+    std::snprintf(text, sizeof text,
+                  "body %u: its contacts need a substep of %.3g s; max_substeps_per_frame %d allows %.3g s",
+                  w.bodies[w.stepLength.stiffest()]->id, stable, w.def.maxSubstepsPerFrame, shortest);
+    w.failure = text;
+  } else if (travel < shortest) {
+    std::snprintf(text, sizeof text,
+                  "something moves at %.3g m/s, more than max_substeps_per_frame %d can follow: contacts may "
+                  "be missed",
+                  speed, w.def.maxSubstepsPerFrame);
+    w.report.warning = text;
+    return std::min({dt, stable, shortest});
+  }
+  return std::min({dt, stable, travel});
+}
+
+template <class Real>
+void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gravity) {
+  w.books.closeStep();
+  w.books.elastic = 0;
+  for (auto& body : w.bodies)
+    w.books.elastic +=
+        body->asleep ? body->sleepingElastic : accumulateSprings(*body, kick, w.def.breaking, w.books);
+  for (PairList<Real>& l : w.lists.lists()) {
+    Body<Real>&a = *w.bodies[l.first], &b = *w.bodies[l.second];
+    if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {w.lastStep, step}, w.books);
+    w.books.elastic += l.elastic;
+  }
+  w.rigid.accumulate(w.bodies, {w.lastStep, step}, kick, w.books);
+  w.books.elastic += w.rigid.elastic();
+
+  const std::size_t brokenBegin = w.report.broken.size();
+  bool anyCrushed = false;
+  for (auto& body : w.bodies) {
+    if (body->asleep || !w.def.crushing || !w.def.breaking) continue;
+    markCrushed(*body);
+    anyCrushed = anyCrushed || !body->crushing.empty();
+  }
+  if (anyCrushed) {
+    for (PairList<Real>& l : w.lists.lists())
+      releaseContacts(l, *w.bodies[l.first], *w.bodies[l.second], step, kick, w.books);
+    w.rigid.release(w.bodies, kick, w.books);
+  }
+  for (std::uint32_t b = 0; b < w.bodies.size(); ++b)
+    if (!w.bodies[b]->asleep) applyBreaks(*w.bodies[b], b, kick, w.lists, w.books, w.report);
+  if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.books);
+
+  w.books.mass = w.books.kinetic = 0;
+  w.books.linear = w.books.angular = Eigen::Vector3d::Zero();
+  for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
+    Body<Real>& body = *w.bodies[b];
+    if (body.asleep) {
+      for (std::size_t i = 0; i < body.elementCount(); ++i) w.books.mass += body.alive[i] ? body.mass[i] : 0;
+      continue;
+    }
+    const Real moved2 =
+        integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed), w.books);
+    if (!std::isfinite(moved2))
+      w.failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
+    moveMotions(body, kick, step, gravity);
+    w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
+  }
+  w.rigid.integrate(w.bodies, kick, step, w.books);
+  for (auto& body : w.bodies)
+    if (!body->crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
+}
+
+template <class Real>
+void closeTick(World<Real>& w, double dt) {
+  for (auto& body : w.bodies) {
+    if (body->asleep) continue;
+    const bool broke = std::any_of(w.report.broken.begin(), w.report.broken.end(),
+                                   [&](const BrokenSpring& s) { return s.body == body->id; });
+    if (broke) {
+      labelFragments(*body);
+      splitFrames(*body);
+    }
+    const double damping = std::max(body->massDamping, body->settleDamping);
+    if (damping > 0) dampDeformation(*body, damping, dt, w.books);
+    fitFrames(*body);
+  }
+}
+
+}  // namespace
+
+// A tick reads top to bottom. The host applies proxies' impulses and handles the crushed
+// afterwards.
+template <class Real>
+void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) {
+  w.report.broken.clear();
+  w.report.crushed.clear();
+  w.report.substeps = 0;
+  w.report.listing = 0;
+  w.report.warning.clear();
+  if (!std::isfinite(dt)) w.failure = "the time step is not finite";
+  if (!w.failure.empty() || !(dt > 0)) return;
+  w.rigid.beginTick(proxies);
+  w.stepLength.beginTick(w.bodies);
+  for (auto& body : w.bodies)
+    if (!body->asleep || body->motions.empty()) beginMotions(*body);
+  w.listsStale = true;
+  double left = dt, step = dt;
+  int substeps = 0;
+  while (left > 0 && w.failure.empty()) {
+    for (auto& body : w.bodies)
+      if (!body->asleep) beginSubstep(*body);
+    const bool listed = refreshLists(w);
+    if (listed) refreshFragments(w);
+    if (listed || contactsBegan(w)) {
+      // What is near has changed: the rest of the tick in equal steps that are short enough for it.
+      const double longest = substeps == 0 ? longestStep(w, dt) : std::min(step, longestStep(w, dt));
+      if (!w.failure.empty()) break;
+      step = left / std::ceil(left / longest * (1 - 1e-9));
+    }
+    // Between steps of two lengths the half steps are their mean apart.
+    const double kick = w.lastStep > 0 ? 0.5 * (w.lastStep + step) : step;
+    substep(w, kick, step, gravity);
+    w.lastStep = step;
+    ++substeps;
+    left = left - step > 0.5 * step ? left - step : 0;
+  }
+  w.report.substeps = substeps;
+  w.report.substep = step;
+  closeTick(w, dt);
+}
+
+template void tick(World<float>&, double, const Eigen::Vector3d&, std::span<RigidProxy>);
+template void tick(World<double>&, double, const Eigen::Vector3d&, std::span<RigidProxy>);
+
+}  // namespace rubble::edem

@@ -1,0 +1,32 @@
+// All that a solver holds: plain data, on which the stages work.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edem/body.h"
+#include "edem/books.h"
+#include "edem/pair_lists.h"
+#include "edem/rigid_contacts.h"
+#include "edem/solver_def.h"
+#include "edem/stages.h"
+#include "edem/step_length.h"
+
+namespace rubble::edem {
+
+template <class Real>
+struct World {
+  SolverDef def;
+  std::vector<std::unique_ptr<Body<Real>>> bodies;
+  PairLists<Real> lists;
+  RigidContacts<Real> rigid;
+  StepLength<Real> stepLength;
+  bool listsStale = true;
+  double lastStep = 0;  ///< of the positions; 0 before the first [s]
+  TickReport report;    ///< of the last tick
+  Books books;
+  std::string failure;  ///< empty: none
+};
+
+}  // namespace rubble::edem
