@@ -14,6 +14,7 @@ class BoxDistance final : public SignedDistance {
   /// Fills its bounds: no other closed surface does.
   static bool isBox(const CheckedMesh& mesh);
 
+  void fitTo(double) override {}
   Distance fast(const Eigen::Vector3d& place) const override { return exact(place); }
   Distance exact(const Eigen::Vector3d& place) const override;
   double fastError() const override { return 0; }

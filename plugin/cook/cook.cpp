@@ -83,13 +83,21 @@ class Packer {
  public:
   Packer(const CheckedMesh& mesh, const CookOptions& options, const ProgressFunction& progress,
          const LogFunction& log)
-      : m_mesh(mesh), m_options(options), m_progress(progress), m_log(log) {}
+      : m_mesh(mesh),
+        m_options(options),
+        m_progress(progress),
+        m_log(log),
+        m_distance(signedDistance(mesh)) {}
 
   PackedElements run() const {
     if (m_options.radius > 0) return packAsTold();
     double radius = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
     for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
       Packing packing = packWith(radius);
+      // Not the next radius for which the thickest corners of a thin solid alone have room.
+      const bool hasRoom = packing.centres.size() == m_options.elements;
+      for (; !hasRoom && shrinks + 1 < kMostShrinks && kShrink * radius > packing.usualDepth; ++shrinks)
+        radius *= kShrink;
       const bool isLast = shrinks == kMostShrinks;
       if (!isLast && !fits(packing)) continue;
       requireFit(packing, radius);
@@ -112,10 +120,10 @@ class Packer {
   }
 
   Packing packWith(double radius) const {
-    const auto distance = signedDistance(m_mesh, radius);
+    m_distance->fitTo(radius);
     const PackingDef def{m_options.elements, radius, mix(m_options.seed), m_options.maxOverlap,
                          m_options.maxIterations};
-    return pack(*distance, m_mesh.bounds, def, [this](double share) {
+    return pack(*m_distance, m_mesh.bounds, def, [this](double share) {
       m_progress(kProgressPacking + share * (kProgressCells - kProgressPacking), "packing");
     });
   }
@@ -169,6 +177,7 @@ class Packer {
   const CookOptions& m_options;
   const ProgressFunction& m_progress;
   const LogFunction& m_log;
+  const std::unique_ptr<SignedDistance> m_distance;
 };
 
 void measureCells(const RestrictedVoronoi& diagram, Asset& asset) {

@@ -1,11 +1,14 @@
-// Signed distance of any closed mesh: sampled on a grid once, interpolated where speed counts, exact by a
-// tree of the triangles where it does not.
+// Signed distance of any closed mesh: interpolated on a grid where speed counts, exact where it does not.
+// Both by a tree of the triangles: a node of the grid is measured when it is first asked for. Only those near
+// elements near the surface ever are, so neither a solid that fills little of its bounds nor triangles that
+// lie aslant in them cost more than others; what a node holds depends on its place alone, never on the order
+// of the questions.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <unordered_map>
 
 #include "cook/signed_distance.h"
 #include "cook/triangle_tree.h"
@@ -14,33 +17,41 @@ namespace rubble::cooking {
 
 class GridDistance final : public SignedDistance {
  public:
-  /// The mesh must outlive this. The spacing is as wanted or, where that takes too much memory, wider [m].
-  GridDistance(const CheckedMesh& mesh, double wantedSpacing);
+  /// The mesh must outlive this.
+  explicit GridDistance(const CheckedMesh& mesh);
 
+  void fitTo(double radius) override;
   Distance fast(const Eigen::Vector3d& place) const override;
   Distance exact(const Eigen::Vector3d& place) const override;
   double fastError() const override { return m_spacing; }
 
- private:
-  std::size_t node(int x, int y, int z) const {
-    return std::size_t(x) +
-           std::size_t(m_count[0]) * (std::size_t(y) + std::size_t(m_count[1]) * std::size_t(z));
-  }
-  Eigen::Vector3d place(int x, int y, int z) const { return m_origin + m_spacing * Eigen::Vector3d(x, y, z); }
+  /// Between nodes [m].
+  double spacing() const { return m_spacing; }
+  /// Nodes hold no distances larger than this, inside or outside [m].
+  double reach() const { return m_reach; }
+  /// Nodes measured so far, in all grids.
+  std::size_t nodesMeasured() const { return m_nodesMeasured; }
+  const TriangleTree& tree() const { return m_tree; }
 
-  void chooseNodes(double wantedSpacing);
-  double distanceTo(std::uint32_t triangle, const Eigen::Vector3d& from) const;
-  void measureBand(std::vector<std::uint32_t>& nearest);
-  void sweep(std::vector<std::uint32_t>& nearest, std::array<int, 3> direction);
-  void applySigns();
-  bool crossesLine(std::uint32_t triangle, double y, double z) const;
+ private:
+  static constexpr int kBlockBits = 2;
+  static constexpr int kBlockEdge = 1 << kBlockBits;                                   // [nodes]
+  using Block = std::array<float, std::size_t(kBlockEdge) * kBlockEdge * kBlockEdge>;  // [m]; NaN: not yet
+
+  Distance farOutside(const Eigen::Vector3d& place) const;
+  Block& block(std::uint64_t key) const;
+  double nodeValue(const std::array<std::int32_t, 3>& node) const;
+  float measure(const std::array<std::int32_t, 3>& node, const Block& nodes, std::size_t inBlock) const;
 
   const CheckedMesh& m_mesh;
   TriangleTree m_tree;
   Eigen::Vector3d m_origin;
   double m_spacing = 0;
-  std::array<int, 3> m_count{};
-  std::vector<float> m_values;  // [m]
+  double m_reach = 0;
+  mutable std::unordered_map<std::uint64_t, Block> m_blocks;
+  mutable std::uint64_t m_lastKey = 0;
+  mutable Block* m_lastBlock = nullptr;
+  mutable std::size_t m_nodesMeasured = 0;
 };
 
 }  // namespace rubble::cooking

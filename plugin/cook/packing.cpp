@@ -19,6 +19,9 @@ constexpr double kStuck = 0.05;        // [r] a centre pressed out this far sits
 constexpr int kRestartPeriod = 50;     // iterations between the checks for stuck centres
 constexpr int kBlindTries = 64;        // random places before a random place is pushed inside
 constexpr int kTries = 20000;          // for one element, before giving up
+constexpr int kTriesEach = 256;        // for all elements together, on average
+constexpr int kClimbs = 255;           // for the depth of the solid, where elements found no room
+constexpr int kClimbTries = 40;        // steps of one of them; halved so often a step is nothing
 constexpr double kFits = 1e-6;         // [r] tolerance of "a sphere fits here"
 
 // A uniform grid over the centres, and the overlaps found with it.
@@ -126,7 +129,11 @@ class Relaxation {
         m_protrusion(def.count, 0.0) {}
 
   Packing run(const std::function<void(double)>& progress) {
-    if (!start()) return std::move(m_packing);
+    m_triesLeft = kTries + kTriesEach * std::int64_t(m_def.count);
+    if (!start()) {
+      climb();
+      return std::move(m_packing);
+    }
     for (int& iteration = m_packing.iterations;; ++iteration) {
       m_packing.deepestOverlap = findOverlaps();
       if (m_packing.deepestOverlap <= m_def.maxOverlap || iteration >= m_def.maxIterations) break;
@@ -153,15 +160,48 @@ class Relaxation {
   // A random place where a sphere fits. In thin walls hardly any place will do, so random ones are pushed
   // inside then.
   bool findRoom(Eigen::Vector3d& place) {
-    for (int tries = 0; tries < kTries; ++tries) {
-      for (int axis = 0; axis < 3; ++axis)
-        place[axis] = m_bounds.min()[axis] + m_random.uniform() * m_bounds.sizes()[axis];
+    for (int tries = 0; tries < kTries && m_triesLeft > 0; ++tries, --m_triesLeft) {
+      place = randomPlace();
       if (tries >= kBlindTries) pushInside(place, false);
       const double depth = -m_distance.fast(place).value;
       m_packing.deepestPlace = std::max(m_packing.deepestPlace, depth);
       if (depth >= (1 - kFits) * m_def.radius) return true;
     }
     return false;
+  }
+
+  // Measures how deep the solid is: from places all over the surface inwards, uphill, in steps that shorten
+  // where they lead down again.
+  void climb() {
+    std::vector<double> depths;
+    for (int k = 0; k < kClimbs; ++k) {
+      Eigen::Vector3d place = randomPlace();
+      Distance here = m_distance.exact(place);
+      place -= here.value * here.gradient;
+      here.value = 0;
+      double step = m_def.radius;
+      for (int tries = 0; tries < kClimbTries; ++tries) {
+        const Eigen::Vector3d next = place - step * here.gradient;
+        const Distance there = m_distance.exact(next);
+        if (there.value < here.value) {
+          place = next;
+          here = there;
+        } else {
+          step /= 2;
+        }
+      }
+      depths.push_back(-here.value);
+    }
+    std::sort(depths.begin(), depths.end());
+    m_packing.usualDepth = depths[depths.size() / 2];
+    m_packing.deepestPlace = std::max(m_packing.deepestPlace, depths.back());
+  }
+
+  Eigen::Vector3d randomPlace() {
+    Eigen::Vector3d place;
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = m_bounds.min()[axis] + m_random.uniform() * m_bounds.sizes()[axis];
+    return place;
   }
 
   // Moves the centre until the sphere is inside; returns how far it still protrudes [m].
@@ -243,6 +283,7 @@ class Relaxation {
   const Eigen::AlignedBox3d m_bounds;
   const PackingDef m_def;
   Random m_random;
+  std::int64_t m_triesLeft = 0;
   ContactGrid m_grid;
   Packing m_packing;
   std::vector<Eigen::Vector3d> m_moves;

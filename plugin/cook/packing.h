@@ -23,7 +23,10 @@ struct Packing {
   std::vector<Eigen::Vector3d> centres;  ///< fewer than wanted: no sphere of this radius fits anywhere
   double deepestOverlap = 0;             ///< [2 r]
   double deepestProtrusion = 0;          ///< out of the solid [m]
-  double deepestPlace = 0;  ///< the largest distance from the surface met while looking for room [m]
+  double deepestPlace = 0;  ///< where centres are missing: the largest distance from the surface found [m]
+  /// Where centres are missing: half of the places on the surface have a deeper one behind them [m]. Elements
+  /// of this radius fit nearly everywhere, those of `deepestPlace` perhaps in a single corner.
+  double usualDepth = 0;
   int iterations = 0;
 };
 

@@ -16,7 +16,10 @@ struct Distance {
 class SignedDistance {
  public:
   virtual ~SignedDistance() = default;
-  /// Fast, asked in every iteration of the packing.
+  /// Makes `fast` good enough for elements of this radius [m].
+  virtual void fitTo(double radius) = 0;
+  /// Fast, asked in every iteration of the packing. Only good enough to keep elements inside: deeper than two
+  /// radii it may say two radii, far outside it may say up to half as much again.
   virtual Distance fast(const Eigen::Vector3d& place) const = 0;
   /// Right to rounding.
   virtual Distance exact(const Eigen::Vector3d& place) const = 0;
@@ -24,8 +27,8 @@ class SignedDistance {
   virtual double fastError() const = 0;
 };
 
-/// Analytic where the mesh is a box along the axes, else a grid. The grid is fine enough for elements of
-/// `radius`.
-std::unique_ptr<SignedDistance> signedDistance(const CheckedMesh& mesh, double radius);
+/// Analytic where the mesh is a box along the axes, else a grid. The mesh must outlive it. Not for two
+/// threads at once.
+std::unique_ptr<SignedDistance> signedDistance(const CheckedMesh& mesh);
 
 }  // namespace rubble::cooking

@@ -1,10 +1,11 @@
-// Closest points on a triangle mesh: a bounding volume tree.
+// Closest points on a triangle mesh, and the side of its surface: a bounding volume tree. Not for two threads
+// at once: it counts its work.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <span>
+#include <limits>
 #include <vector>
 
 #include "cook/checked_mesh.h"
@@ -22,23 +23,42 @@ class TriangleTree {
 
   struct Closest {
     Eigen::Vector3d point;
-    std::uint32_t triangle;
+    std::uint32_t triangle;  ///< kNoElement: none within reach
     double squaredDistance;
   };
-  /// `hint` is a triangle that may be near; a good one makes the search short.
-  Closest closest(const Eigen::Vector3d& place, std::uint32_t hint = 0) const;
+  /// Searches as far as `reach` [m]. The distance found may be too long by the factor 1 + `slack`: far from a
+  /// finely divided surface, where many triangles are about as near, that shortens the search much.
+  Closest closest(const Eigen::Vector3d& place, double reach = std::numeric_limits<double>::infinity(),
+                  double slack = 0) const;
+
+  /// Whether the place is inside the solid: parity of the triangles that a ray along x crosses. Wrong at
+  /// most for places on the surface to rounding.
+  bool holds(const Eigen::Vector3d& place) const;
+
+  /// Triangles measured or tried for a crossing since the tree was built.
+  std::size_t trianglesTried() const { return m_trianglesTried; }
 
  private:
+  // A triangle or a part of it. Long ones that lie aslant have boxes that hold mostly nothing, so they enter
+  // in parts.
+  struct Piece {
+    Eigen::AlignedBox3d box;
+    std::uint32_t triangle;
+  };
   struct Node {
     Eigen::AlignedBox3d box;
     // Leaf: triangles [first, first + count). Inner node: count 0, children at this + 1 and `first`.
     std::uint32_t first, count;
   };
-  void build(std::uint32_t first, std::uint32_t count);
+  std::vector<Piece> split() const;
+  void build(std::vector<Piece>& pieces, std::uint32_t first, std::uint32_t count);
+  bool crossesLine(std::uint32_t triangle, double y, double z) const;
+  double crossing(std::uint32_t triangle, double y, double z) const;
 
   const CheckedMesh& m_mesh;
-  std::vector<std::uint32_t> m_order;  // triangles
+  std::vector<std::uint32_t> m_order;  // triangle of each piece
   std::vector<Node> m_nodes;
+  mutable std::size_t m_trianglesTried = 0;
 };
 
 }  // namespace rubble::cooking
