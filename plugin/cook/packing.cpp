@@ -162,8 +162,11 @@ class Relaxation {
   bool findRoom(Eigen::Vector3d& place) {
     for (int tries = 0; tries < kTries && m_triesLeft > 0; ++tries, --m_triesLeft) {
       place = randomPlace();
-      if (tries >= kBlindTries) pushInside(place, false);
-      const double depth = -m_distance.fast(place).value;
+      // Walls hardly thicker than a sphere need the exact distance: interpolated, it is cut off at their
+      // middle.
+      const bool isPushed = tries >= kBlindTries;
+      if (isPushed) pushInside(place, true);
+      const double depth = -measure(place, isPushed).value;
       m_packing.deepestPlace = std::max(m_packing.deepestPlace, depth);
       if (depth >= (1 - kFits) * m_def.radius) return true;
     }

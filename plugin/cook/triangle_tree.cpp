@@ -1,5 +1,6 @@
 #include "cook/triangle_tree.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,6 +62,17 @@ bool edgeCrossed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double y, d
   return y < a.y() + (z - a.z()) / (b.z() - a.z()) * (b.y() - a.y());
 }
 
+// Into axes along the long edges of the mesh, the last one along the longest, where the boxes around
+// triangles hold least but them. Large architecture is mostly made so.
+Eigen::Matrix3d turnTo(const CheckedMesh& mesh) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const auto& [a, b] : mesh.edges) {
+    const Eigen::Vector3d edge = (mesh.vertices[b] - mesh.vertices[a]) / mesh.diagonal();
+    sum += edge.norm() * edge * edge.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().transpose();
+}
+
 }  // namespace
 
 Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vector3d& a,
@@ -90,7 +102,11 @@ Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vec
   return a + besideAc / sum * ab + besideAb / sum * ac;
 }
 
-TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh) {
+TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh), m_turn(turnTo(mesh)) {
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    m_vertices.emplace_back(m_turn * vertex);
+    m_bounds.extend(m_vertices.back());
+  }
   std::vector<Piece> pieces = split();
   m_nodes.reserve(pieces.size());
   build(pieces, 0, std::uint32_t(pieces.size()));
@@ -102,27 +118,27 @@ TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh) {
 std::vector<TriangleTree::Piece> TriangleTree::split() const {
   const std::size_t count = m_mesh.triangles.size();
   const std::size_t most = count + std::min(kMostSplits, (kPiecesPerTriangle - 1) * count);
-  const double small = kSmallBox * surfaceOf(m_mesh.bounds);
-  // The middle of an edge is rounded, the edge is not.
+  const double small = kSmallBox * surfaceOf(m_bounds);
+  // The middle of an edge is rounded, and so are turned vertices.
   const Eigen::Vector3d rounding = 4 * std::numeric_limits<double>::epsilon() *
-                                   m_mesh.bounds.min().cwiseAbs().cwiseMax(m_mesh.bounds.max().cwiseAbs());
+                                   m_bounds.min().cwiseAbs().cwiseMax(m_bounds.max().cwiseAbs());
   std::vector<Piece> pieces;
   pieces.reserve(count);
-  const auto isSmaller = [](const Part& a, const Part& b) { return a.size < b.size; };
-  std::priority_queue<Part, std::vector<Part>, decltype(isSmaller)> large(isSmaller);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    const auto& [a, b, c] = m_mesh.triangles[t];
-    const Part part = partOf({m_mesh.vertices[a], m_mesh.vertices[b], m_mesh.vertices[c]}, t);
-    if (part.size > small) {
-      large.push(part);
-    } else {
-      pieces.push_back({part.box(), t});
-    }
-  }
   const auto keep = [&pieces, &rounding](const Part& part) {
     const Eigen::AlignedBox3d box = part.box();
     pieces.push_back({{box.min() - rounding, box.max() + rounding}, part.triangle});
   };
+  const auto isSmaller = [](const Part& a, const Part& b) { return a.size < b.size; };
+  std::priority_queue<Part, std::vector<Part>, decltype(isSmaller)> large(isSmaller);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const auto& [a, b, c] = m_mesh.triangles[t];
+    const Part part = partOf({m_vertices[a], m_vertices[b], m_vertices[c]}, t);
+    if (part.size > small) {
+      large.push(part);
+    } else {
+      keep(part);
+    }
+  }
   for (; !large.empty() && large.size() + pieces.size() < most;) {
     const Part part = large.top();
     large.pop();
@@ -162,6 +178,7 @@ void TriangleTree::build(std::vector<Piece>& pieces, std::uint32_t first, std::u
 }
 
 TriangleTree::Closest TriangleTree::closest(const Eigen::Vector3d& place, double reach, double slack) const {
+  const Eigen::Vector3d turned = m_turn * place;
   Closest best{place, kNoElement, reach * reach};
   const double shorter = 1 / ((1 + slack) * (1 + slack));
   struct Waiting {
@@ -170,7 +187,7 @@ TriangleTree::Closest TriangleTree::closest(const Eigen::Vector3d& place, double
   };
   std::array<Waiting, kDeepest> stack{};
   std::size_t depth = 1;
-  stack[0] = {0, m_nodes[0].box.squaredExteriorDistance(place)};
+  stack[0] = {0, m_nodes[0].box.squaredExteriorDistance(turned)};
   while (depth > 0) {
     const Waiting next = stack[--depth];
     if (next.squaredDistance > best.squaredDistance * shorter) continue;
@@ -186,8 +203,8 @@ TriangleTree::Closest TriangleTree::closest(const Eigen::Vector3d& place, double
     }
     m_trianglesTried += node.count;
     if (node.count > 0) continue;
-    const Waiting left{next.node + 1, m_nodes[next.node + 1].box.squaredExteriorDistance(place)};
-    const Waiting right{node.first, m_nodes[node.first].box.squaredExteriorDistance(place)};
+    const Waiting left{next.node + 1, m_nodes[next.node + 1].box.squaredExteriorDistance(turned)};
+    const Waiting right{node.first, m_nodes[node.first].box.squaredExteriorDistance(turned)};
     const bool leftIsNearer = left.squaredDistance <= right.squaredDistance;
     stack[depth++] = leftIsNearer ? right : left;
     stack[depth++] = leftIsNearer ? left : right;
@@ -199,7 +216,7 @@ bool TriangleTree::crossesLine(std::uint32_t triangle, double y, double z) const
   bool crosses = false;
   for (const std::uint32_t edge : m_mesh.triangleEdges[triangle]) {
     const auto& [a, b] = m_mesh.edges[edge];
-    crosses = crosses != edgeCrossed(m_mesh.vertices[a], m_mesh.vertices[b], y, z);
+    crosses = crosses != edgeCrossed(m_vertices[a], m_vertices[b], y, z);
   }
   return crosses;
 }
@@ -207,15 +224,16 @@ bool TriangleTree::crossesLine(std::uint32_t triangle, double y, double z) const
 // Where a line that crosses the triangle meets its plane; a triangle edge-on to it answers with its middle.
 double TriangleTree::crossing(std::uint32_t triangle, double y, double z) const {
   Eigen::AlignedBox3d box;
-  for (const std::uint32_t v : m_mesh.triangles[triangle]) box.extend(m_mesh.vertices[v]);
-  const Eigen::Vector3d& normal = m_mesh.normals[triangle];
-  const Eigen::Vector3d& corner = m_mesh.vertices[m_mesh.triangles[triangle][0]];
+  for (const std::uint32_t v : m_mesh.triangles[triangle]) box.extend(m_vertices[v]);
+  const Eigen::Vector3d normal = m_turn * m_mesh.normals[triangle];
+  const Eigen::Vector3d& corner = m_vertices[m_mesh.triangles[triangle][0]];
   const double slope = normal.y() * (y - corner.y()) + normal.z() * (z - corner.z());
   const double x = normal.x() != 0 ? corner.x() - slope / normal.x() : box.center().x();
   return std::clamp(x, box.min().x(), box.max().x());
 }
 
-bool TriangleTree::holds(const Eigen::Vector3d& place) const {
+bool TriangleTree::holds(const Eigen::Vector3d& asked) const {
+  const Eigen::Vector3d place = m_turn * asked;
   const auto meets = [&place](const Eigen::AlignedBox3d& box) {
     return box.max().x() >= place.x() && box.min().y() <= place.y() && place.y() <= box.max().y() &&
            box.min().z() <= place.z() && place.z() <= box.max().z();

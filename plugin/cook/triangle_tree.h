@@ -31,9 +31,9 @@ class TriangleTree {
   Closest closest(const Eigen::Vector3d& place, double reach = std::numeric_limits<double>::infinity(),
                   double slack = 0) const;
 
-  /// Whether the place is inside the solid: parity of the triangles that a ray along x crosses. Wrong at
+  /// Whether the place is inside the solid: parity of the triangles that a ray crosses. Wrong at
   /// most for places on the surface to rounding.
-  bool holds(const Eigen::Vector3d& place) const;
+  bool holds(const Eigen::Vector3d& asked) const;
 
   /// Triangles measured or tried for a crossing since the tree was built.
   std::size_t trianglesTried() const { return m_trianglesTried; }
@@ -56,6 +56,9 @@ class TriangleTree {
   double crossing(std::uint32_t triangle, double y, double z) const;
 
   const CheckedMesh& m_mesh;
+  const Eigen::Matrix3d m_turn;  // into the tree's axes, in which the boxes are
+  std::vector<Eigen::Vector3d> m_vertices;
+  Eigen::AlignedBox3d m_bounds;
   std::vector<std::uint32_t> m_order;  // triangle of each piece
   std::vector<Node> m_nodes;
   mutable std::size_t m_trianglesTried = 0;

@@ -1,0 +1,155 @@
+// Solids that made the cook slow: what they cook to, and how much work their distances are. Work is counted,
+// not timed.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "cook/grid_distance.h"
+#include "cook/packing.h"
+#include "support/strict_cook.h"
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+SurfaceMesh tilted(SurfaceMesh mesh) {
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turn * vertex;
+  return mesh;
+}
+
+// Volume 1 / 6. Its faces lean by one in ninety: no sphere of more than about 5 mm has room.
+SurfaceMesh needle() {
+  return {{{0, 0, 0}, {1, 0, 0}, {90, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+// 2 x 2 m, 5 cm thick, of `count` strips from side to side: volume 0.2.
+SurfaceMesh plateOfStrips(std::uint32_t count) {
+  SurfaceMesh mesh;
+  const auto vertex = [count](std::uint32_t z, std::uint32_t y, std::uint32_t i) {
+    return (2 * z + y) * (count + 1) + i;
+  };
+  for (const double z : {0.0, 0.05})
+    for (const double y : {0.0, 2.0})
+      for (std::uint32_t i = 0; i <= count; ++i) mesh.vertices.emplace_back(2.0 * i / count, y, z);
+  const auto add = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    add(vertex(0, 0, i), vertex(0, 1, i), vertex(0, 1, i + 1), vertex(0, 0, i + 1));
+    add(vertex(1, 0, i), vertex(1, 0, i + 1), vertex(1, 1, i + 1), vertex(1, 1, i));
+    add(vertex(0, 0, i), vertex(0, 0, i + 1), vertex(1, 0, i + 1), vertex(1, 0, i));
+    add(vertex(0, 1, i), vertex(1, 1, i), vertex(1, 1, i + 1), vertex(0, 1, i + 1));
+  }
+  add(vertex(0, 0, 0), vertex(1, 0, 0), vertex(1, 1, 0), vertex(0, 1, 0));
+  add(vertex(0, 0, count), vertex(0, 1, count), vertex(1, 1, count), vertex(1, 0, count));
+  return mesh;
+}
+
+// 2 m wide, walls of 5 mm: volume 8 - 1.99^3.
+SurfaceMesh shell() {
+  return joined(boxMesh(Eigen::Vector3d::Constant(2)), reversed(boxMesh(Eigen::Vector3d::Constant(1.99))));
+}
+
+struct Work {
+  std::size_t nodes, triangles;
+};
+
+Work workOfPacking(const SurfaceMesh& mesh, double radius) {
+  const cooking::CheckedMesh solid = cooking::checkMesh(mesh);
+  cooking::GridDistance distance(solid);
+  distance.fitTo(radius);
+  const CookOptions options;
+  const cooking::PackingDef def{2048, radius, 1, options.maxOverlap, options.maxIterations};
+  const cooking::Packing packing = cooking::pack(distance, solid.bounds, def, [](double) {});
+  EXPECT_EQ(packing.centres.size(), 2048u);
+  return {distance.nodesMeasured(), distance.tree().trianglesTried()};
+}
+
+// At most the eight nodes around each of the 65 places where an element looks for room at first: on average
+// it then moves through no more cells than that. A grid over the bounds has 5e9 nodes, one that was limited
+// to memory had 1.5e7.
+TEST(CookWork, NodesAreMeasuredOnlyWhereElementsGo) {
+  const double radius = 0.00229;
+  const Work work = workOfPacking(tilted(shell()), radius);
+  EXPECT_LT(work.nodes, 8u * 65u * 2048u);
+}
+
+// Measured without parts and turned axes: 1035 triangles a node, half of all. Filling a grid by the boxes of
+// the triangles took 2e9 in all.
+TEST(CookWork, LongTrianglesThatLieAslantAreTriedOnlyNearby) {
+  const Work work = workOfPacking(tilted(plateOfStrips(512)), 0.02);
+  EXPECT_LT(work.triangles, 200 * work.nodes);
+  EXPECT_LT(work.triangles, 100'000'000u);
+}
+
+TEST(CookWork, NeedlesCook) {
+  ExpectedWarnings warnings;
+  const Asset asset = cook(needle(), optionsFor(10), {}, warnings.log());
+  EXPECT_EQ(warnings.take("do not fit; radius"), 1);
+  EXPECT_NEAR(asset.volume(), 1.0 / 6, 1e-9);
+  EXPECT_LT(asset.radius, 0.0056);  // half the height over its longest face at the thick end, 1 / 90
+}
+
+TEST(CookWork, PlatesOfAslantStripsCook) {
+  ExpectedWarnings warnings;
+  const Asset asset = cook(tilted(plateOfStrips(512)), optionsFor(512), {}, warnings.log());
+  EXPECT_EQ(warnings.take("do not fit; radius"), 1);
+  EXPECT_NEAR(asset.volume(), 0.2, 1e-9);
+  EXPECT_LT(asset.radius, 0.025);
+}
+
+TEST(CookWork, BallsOfFourHundredThousandTrianglesCook) {
+  const SurfaceMesh mesh = ball(1, 317);
+  ASSERT_GT(mesh.triangles.size(), 400'000u);
+  const Asset asset = cookStrictly(mesh, optionsFor(256));
+  EXPECT_NEAR(asset.volume(), volumeOf(mesh), 1e-9);
+}
+
+// Elements as thick as the walls, not larger ones that would all sit in the edges, where a ball tangent to
+// two faces and the inner edge has a radius of 5 mm * sqrt(2) / (1 + sqrt(2)) = 2.9 mm.
+TEST(CookWork, ShellsOfThinWallsCookWithElementsThatFitTheWalls) {
+  for (const SurfaceMesh& mesh : {shell(), tilted(shell())}) {
+    ExpectedWarnings warnings;
+    const Asset asset = cook(mesh, optionsFor(2048), {}, warnings.log());
+    EXPECT_EQ(warnings.take("do not fit; radius"), 1);
+    EXPECT_NEAR(asset.volume(), 8 - 1.99 * 1.99 * 1.99, 1e-9);
+    EXPECT_LE(asset.radius, 0.0025);
+    EXPECT_GE(asset.radius, 0.9 * 0.9 * 0.0025);
+  }
+}
+
+TEST(CookWork, WhatDoesNotFitIntoANeedleIsNamed) {
+  CookOptions options = optionsFor(10);
+  options.radius = 0.02;
+  try {
+    cook(needle(), options);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no sphere of radius 0.02 m fits into the mesh: the deepest"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+// Around the edge of a wedge of 20 degrees, the nearest triangle's plane has the wrong side for the places
+// that are nearest to the edge itself.
+TEST(GridDistance, KnowsTheSideAroundSharpEdges) {
+  const double slope = std::tan(10 * std::numbers::pi / 180);
+  const cooking::CheckedMesh mesh =
+      cooking::checkMesh(extrude({{0, 0}, {1, -slope}, {1, slope}}, {{0, 1, 2}}, 1));
+  const cooking::GridDistance distance(mesh);
+  std::mt19937_64 generator(11);
+  const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
+  for (int k = 0; k < 5000; ++k) {
+    const Eigen::Vector3d p(0.2 * uniform() - 0.1, 0.2 * uniform() - 0.1, uniform());
+    EXPECT_EQ(distance.exact(p).value < 0, std::abs(p.y()) < slope * p.x()) << p.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace rubble::test
