@@ -113,14 +113,15 @@ void matchEdges(CheckedMesh& mesh) {
     const HalfEdge& first = halves[at];
     std::size_t end = at + 1;
     while (end < halves.size() && halves[end].low == first.low && halves[end].high == first.high) ++end;
-    const std::string where =
-        "the edge from " + place(mesh.vertices[first.low]) + " to " + place(mesh.vertices[first.high]);
-    if (end == at + 1) fail("not closed: ", where, " has one triangle only (", first.triangle, ')');
-    if (end > at + 2) fail("not manifold: ", where, " has ", end - at, " triangles");
+    const auto where = [&mesh, &first] {
+      return "the edge from " + place(mesh.vertices[first.low]) + " to " + place(mesh.vertices[first.high]);
+    };
+    if (end == at + 1) fail("not closed: ", where(), " has one triangle only (", first.triangle, ')');
+    if (end > at + 2) fail("not manifold: ", where(), " has ", end - at, " triangles");
     const HalfEdge& second = halves[at + 1];
     if (first.upward == second.upward)
       fail("inconsistent orientation: triangles ", first.triangle, " and ", second.triangle,
-           " turn opposite ways about ", where);
+           " turn opposite ways about ", where());
     const auto edge = std::uint32_t(mesh.edges.size());
     mesh.edges.push_back({first.low, first.high});
     mesh.triangleEdges[first.triangle][first.side] = edge;
