@@ -121,12 +121,13 @@ class CellMeshBuilder {
         polygonOnTriangle;  // one at most: cells are convex before they are clipped
     for (const std::uint32_t p : polygons)
       polygonOnTriangle.emplace(m_diagram.surface.polygons[p].triangle, p);
-    while (!polygonOnTriangle.empty()) {
-      const auto largest = std::max_element(
-          polygonOnTriangle.begin(), polygonOnTriangle.end(),
-          [this](const auto& a, const auto& b) { return polygonSize(a.second) < polygonSize(b.second); });
-      addPatch(largest->second, polygonOnTriangle);
-    }
+    // From the largest on; of equal ones the first triangle's.
+    std::vector<std::pair<double, std::uint32_t>> bySize;
+    for (const auto& [triangle, p] : polygonOnTriangle) bySize.emplace_back(polygonSize(p), p);
+    std::stable_sort(bySize.begin(), bySize.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [size, p] : bySize)
+      if (polygonOnTriangle.contains(m_diagram.surface.polygons[p].triangle)) addPatch(p, polygonOnTriangle);
   }
 
   double polygonSize(std::uint32_t p) const {
