@@ -32,7 +32,9 @@ constexpr Row kSolids[] = {{"wall", wallMesh, 0},
                            {"L of three cubes", ell, 0},
                            {"ring", [] { return torus(1, 0.3, 64, 32); }, 0},
                            {"fine ring", [] { return torus(1, 0.3, 256, 128); }, 0},
-                           {"fine ball", [] { return ball(1, 128); }, 0}};
+                           {"fine ball", [] { return ball(1, 128); }, 0},
+                           {"tilted plate of strips", [] { return tilted(plateOfStrips(128)); }, 0},
+                           {"tilted thin shell", [] { return tilted(shell()); }, 0}};
 
 CookOptions optionsOf(const Row& row) {
   CookOptions options = wallOptions();

@@ -1,6 +1,7 @@
 // Closed test solids with known volumes.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -107,6 +108,49 @@ inline SurfaceMesh joined(SurfaceMesh mesh, const SurfaceMesh& other) {
 /// A unit cube about the origin with a cubic cavity of edge 0.5: volume 0.875.
 inline SurfaceMesh hollowCube() {
   return joined(boxMesh(Eigen::Vector3d::Ones()), reversed(boxMesh(Eigen::Vector3d::Constant(0.5))));
+}
+
+/// Turned so that no edge lies along an axis.
+inline SurfaceMesh tilted(SurfaceMesh mesh) {
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turn * vertex;
+  return mesh;
+}
+
+/// Volume 1 / 6. Its faces lean by one in ninety: no sphere of more than about 5 mm has room.
+inline SurfaceMesh needle() {
+  return {{{0, 0, 0}, {1, 0, 0}, {90, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+/// 2 x 2 m, 5 cm thick, of `count` strips from side to side: volume 0.2.
+inline SurfaceMesh plateOfStrips(std::uint32_t count) {
+  SurfaceMesh mesh;
+  const auto vertex = [count](std::uint32_t z, std::uint32_t y, std::uint32_t i) {
+    return (2 * z + y) * (count + 1) + i;
+  };
+  for (const double z : {0.0, 0.05})
+    for (const double y : {0.0, 2.0})
+      for (std::uint32_t i = 0; i <= count; ++i) mesh.vertices.emplace_back(2.0 * i / count, y, z);
+  const auto add = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    add(vertex(0, 0, i), vertex(0, 1, i), vertex(0, 1, i + 1), vertex(0, 0, i + 1));
+    add(vertex(1, 0, i), vertex(1, 0, i + 1), vertex(1, 1, i + 1), vertex(1, 1, i));
+    add(vertex(0, 0, i), vertex(0, 0, i + 1), vertex(1, 0, i + 1), vertex(1, 0, i));
+    add(vertex(0, 1, i), vertex(1, 1, i), vertex(1, 1, i + 1), vertex(0, 1, i + 1));
+  }
+  add(vertex(0, 0, 0), vertex(1, 0, 0), vertex(1, 1, 0), vertex(0, 1, 0));
+  add(vertex(0, 0, count), vertex(0, 1, count), vertex(1, 1, count), vertex(1, 0, count));
+  return mesh;
+}
+
+/// 2 m wide, walls of 5 mm: volume 8 - 1.99^3.
+inline SurfaceMesh shell() {
+  return joined(boxMesh(Eigen::Vector3d::Constant(2)), reversed(boxMesh(Eigen::Vector3d::Constant(1.99))));
 }
 
 /// By the divergence theorem.
