@@ -23,19 +23,10 @@ namespace {
 using bullet::toBullet;
 using bullet::toEigen;
 
-// Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
-constexpr double kQuietSpeed = 0.01;
 // Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. A body that may
 // sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
 // is damped at this rate [1/s].
 constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
-// A body is held by Bullet when that bears more than this share of its weight.
-constexpr double kHeldShare = 0.05;
-// Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
-// keeps jumping from tick to tick.
-constexpr btScalar kTrust = btScalar(0.25);
-// Resting debris within this many radii of a break wake up.
-constexpr double kWakeRadii = 3;
 
 }  // namespace
 
@@ -155,15 +146,6 @@ DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
   return nullptr;
 }
 
-template <class T>
-void Destruction::Impl::record(std::vector<T>& list, const T& event) {
-  if (list.size() < def.maxEvents) {
-    list.push_back(event);
-  } else {
-    ++events[filling].dropped;
-  }
-}
-
 void Destruction::Impl::gatherProxies(double dt) {
   BT_PROFILE("Rubble gather proxies");
   bullet::addSwept(world, bodies, dt);
@@ -276,123 +258,6 @@ void Destruction::Impl::closeLedger(double dt) {
   ledgerBook.addMade(energyAlarm.made(), energyAlarm.told());
   if (!def.log) return;
   for (const std::string& line : lines) def.log(LogLevel::Warning, line);
-}
-
-// Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
-void Destruction::Impl::lateImpulses() {
-  BT_PROFILE("Rubble late impulses");
-  for (bullet::TouchedBody& t : touched) {
-    if (!t.rigid || t.given) continue;
-    t.rigid->setLinearVelocity(t.rigid->getLinearVelocity() + t.deltaVelocity);
-    t.rigid->setAngularVelocity(t.rigid->getAngularVelocity() + t.deltaSpin);
-    t.rigid->translate(t.deltaVelocity * btScalar(world.getSolverInfo().m_timeStep));
-  }
-}
-
-// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
-// had it.
-void Destruction::Impl::fixPositions() {
-  BT_PROFILE("Rubble fix positions");
-  for (std::size_t p = 0; p < proxies.size(); ++p) {
-    bullet::TouchedBody& t = touched[p];
-    if (!t.rigid || !(proxies[p].contactWeight > 0) || isHeld(*t.rigid)) continue;
-    btTransform at = t.rigid->getWorldTransform();
-    at.setOrigin(at.getOrigin() + toBullet(proxies[p].position) - t.freeEnd.getOrigin());
-    at.setRotation((toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse() * at.getRotation())
-                       .normalized());
-    t.rigid->setWorldTransform(at);
-    t.rigid->setInterpolationWorldTransform(at);
-  }
-}
-
-// Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs.
-bool Destruction::Impl::isHeld(const btRigidBody& rigid) const {
-  const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
-  return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
-    return r.body == &rigid && r.linear.length() > least;
-  });
-}
-
-// A body that was at rest before and after this tick is held by something that only Bullet knows: the
-// substeps of the next tick count on a share kTrust of it and the rest of what they counted on before, so
-// that it settles.
-void Destruction::Impl::noteReactions(double dt) {
-  BT_PROFILE("Rubble note reactions");
-  const std::vector<bullet::Reaction> before = std::exchange(reactions, {});
-  const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
-  const btScalar rate = btScalar(1 / dt);
-  for (const bullet::TouchedBody& t : touched) {
-    if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
-    bullet::Reaction now{
-        t.rigid, rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
-        rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
-    for (const bullet::Reaction& last : before) {
-      if (last.body != now.body) continue;
-      now.linear = last.linear + kTrust * (now.linear - last.linear);
-      now.angular = last.angular + kTrust * (now.angular - last.angular);
-    }
-    reactions.push_back(now);
-  }
-}
-
-// For applications that read manifolds: a body's impulse, in equal parts on the points of its manifold.
-void Destruction::Impl::writeAppliedImpulses() {
-  BT_PROFILE("Rubble write applied impulses");
-  btDispatcher& dispatcher = *world.getDispatcher();
-  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
-    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
-    const bool second = DestructibleBody::upcast(manifold.getBody1()) != nullptr;
-    const DestructibleBody* own =
-        DestructibleBody::upcast(second ? manifold.getBody1() : manifold.getBody0());
-    if (!own) continue;
-    const btCollisionObject* other = second ? manifold.getBody0() : manifold.getBody1();
-    for (std::size_t p = 0; p < proxies.size(); ++p) {
-      const edem::RigidProxy& proxy = proxies[p];
-      if (touched[p].object != other ||
-          std::count(proxy.touched.begin(), proxy.touched.end(), own->id()) == 0)
-        continue;
-      const double share = 1.0 / double(proxy.touched.size()) / std::max(1, manifold.getNumContacts());
-      for (int c = 0; c < manifold.getNumContacts(); ++c)
-        manifold.getContactPoint(c).m_appliedImpulse = btScalar(share * proxy.impulse.norm());
-    }
-  }
-}
-
-void Destruction::Impl::bookEvents() {
-  BT_PROFILE("Rubble book events");
-  Events& out = events[filling];
-  const edem::TickReport& report = solver->report();
-  wakeBoxes.clear();
-  for (const edem::BrokenSpring& s : report.broken) {
-    record(out.springsBroken, {s.body, s.spring, s.mode, float(s.energy), s.position.cast<float>()});
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kWakeRadii * solver->radius(s.body));
-    wakeBoxes.emplace_back(s.position - reach, s.position + reach);
-  }
-  for (std::size_t p = 0; p < proxies.size(); ++p) {
-    const edem::RigidProxy& proxy = proxies[p];
-    if (!(proxy.contactWeight > 0)) continue;
-    for (const std::uint32_t id : proxy.touched)
-      record(out.contacts, {id, touched[p].object, float(proxy.impulse.norm()),
-                            (proxy.contactPoint / proxy.contactWeight).cast<float>()});
-  }
-  for (DestructibleBody* body : bodies) {
-    const auto broke = [&](const edem::BrokenSpring& s) { return s.body == body->id(); };
-    if (std::none_of(report.broken.begin(), report.broken.end(), broke)) continue;
-    const edem::BodyView view = solver->view(body->id());
-    std::vector<FragmentSplit> split(view.fragment.size());
-    for (std::size_t i = 0; i < view.fragment.size(); ++i) {
-      if (view.fragment[i] == kNoElement) continue;
-      FragmentSplit& f = split[view.fragment[i]];
-      ++f.elements;
-      f.mass += float(view.mass[i]);
-    }
-    for (std::uint32_t i = 0; i < split.size(); ++i) {
-      const bool root = view.fragment[i] == i;
-      if (root && !body->impl().wasRoot[i])
-        record(out.fragmentsSplit, {body->id(), i, split[i].elements, split[i].mass});
-      body->impl().wasRoot[i] = root;
-    }
-  }
 }
 
 // The first failure counts.

@@ -99,7 +99,19 @@ struct Destruction::Impl {
   DestructibleBody* bodyOf(std::uint32_t id) const;
   template <class T>
   void record(std::vector<T>& list, const T& event);
+
+  // Elements slower than this, and their surfaces, count as still for Bullet's own rules of sleep [m/s].
+  static constexpr double kQuietSpeed = 0.01;
 };
+
+template <class T>
+void Destruction::Impl::record(std::vector<T>& list, const T& event) {
+  if (list.size() < def.maxEvents) {
+    list.push_back(event);
+  } else {
+    ++events[filling].dropped;
+  }
+}
 
 RUBBLE_ABI_END
 }  // namespace rubble

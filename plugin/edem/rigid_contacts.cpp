@@ -16,6 +16,7 @@ namespace {
 // A light rigid body at many elements is faster than they are: up to this multiple of their frequency^2 the
 // substep follows it, beyond it its contacts are made softer.
 constexpr double kLightBodyRate = 4;
+
 // Surface nearest to a world point over all parts of a proxy.
 SurfacePoint nearestPart(const RigidProxy& proxy, const Eigen::Vector3d& world) {
   const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
@@ -43,27 +44,6 @@ ElementPose poseOf(const Body<Real>& body, std::uint32_t i, const RigidProxy& pr
 }
 
 }  // namespace
-
-Eigen::AlignedBox3d RigidProxy::bounds() const {
-  Eigen::AlignedBox3d all;
-  const Eigen::Matrix3d turn = orientation.toRotationMatrix();
-  for (const Collider& part : parts) {
-    const Eigen::AlignedBox3d b = part.bounds();
-    if (!b.sizes().allFinite()) return b;
-    const Eigen::Vector3d centre = position + turn * b.center(), half = turn.cwiseAbs() * (0.5 * b.sizes());
-    all.extend(Eigen::AlignedBox3d(centre - half, centre + half));
-  }
-  return all;
-}
-
-double RigidProxy::reach() const {
-  double furthest = 0;
-  for (const Collider& part : parts) {
-    const Eigen::AlignedBox3d b = part.bounds();
-    if (b.sizes().allFinite()) furthest = std::max(furthest, b.center().norm() + 0.5 * b.diagonal().norm());
-  }
-  return furthest;
-}
 
 template <class Real>
 void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
@@ -611,7 +591,7 @@ void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Books&
 // The law of a contact has changed at this instant, because of a break: so has the energy in it, and up to
 // here the force before has done its half.
 template <class Real>
-void RigidContacts<Real>::bookChange(const Touch& before, const Touch& now, double kick, Books& books) const {
+void RigidContacts<Real>::bookChange(const Touch& before, const Touch& now, double kick, Books& books) {
   books.elastic += now.energy - before.energy;
   books.fracture += before.energy - now.energy + 0.5 * kick * (before.power - now.power);
 }

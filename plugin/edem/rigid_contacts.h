@@ -154,7 +154,7 @@ class RigidContacts {
   void add(const Touch& touch, Candidate& candidate, Body<Real>& body);
   void take(Candidate& candidate, Body<Real>& body);
   void apply(const Push& push, Body<Real>& body, double sign);
-  void bookChange(const Touch& before, const Touch& now, double kick, Books& books) const;
+  static void bookChange(const Touch& before, const Touch& now, double kick, Books& books);
 
   std::span<RigidProxy> m_proxies;
   std::vector<ProxyState> m_states, m_before;  // of this tick, of the last

@@ -1,0 +1,81 @@
+// What Bullet's bodies have of a tick: impulses, places, and what holds them when they are at rest.
+#include <LinearMath/btQuickprof.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bullet/convert.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toBullet;
+
+// A body is held by Bullet when that bears more than this share of its weight.
+constexpr double kHeldShare = 0.05;
+// Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
+// keeps jumping from tick to tick.
+constexpr btScalar kTrust = btScalar(0.25);
+}  // namespace
+
+// Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
+void Destruction::Impl::lateImpulses() {
+  BT_PROFILE("Rubble late impulses");
+  for (bullet::TouchedBody& t : touched) {
+    if (!t.rigid || t.given) continue;
+    t.rigid->setLinearVelocity(t.rigid->getLinearVelocity() + t.deltaVelocity);
+    t.rigid->setAngularVelocity(t.rigid->getAngularVelocity() + t.deltaSpin);
+    t.rigid->translate(t.deltaVelocity * btScalar(world.getSolverInfo().m_timeStep));
+  }
+}
+
+// A body that hit within the tick has moved as if its impulse had acted all along: put it where the substeps
+// had it.
+void Destruction::Impl::fixPositions() {
+  BT_PROFILE("Rubble fix positions");
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    bullet::TouchedBody& t = touched[p];
+    if (!t.rigid || !(proxies[p].contactWeight > 0) || isHeld(*t.rigid)) continue;
+    btTransform at = t.rigid->getWorldTransform();
+    at.setOrigin(at.getOrigin() + toBullet(proxies[p].position) - t.freeEnd.getOrigin());
+    at.setRotation((toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse() * at.getRotation())
+                       .normalized());
+    t.rigid->setWorldTransform(at);
+    t.rigid->setInterpolationWorldTransform(at);
+  }
+}
+
+// Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs.
+bool Destruction::Impl::isHeld(const btRigidBody& rigid) const {
+  const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
+  return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
+    return r.body == &rigid && r.linear.length() > least;
+  });
+}
+
+// A body that was at rest before and after this tick is held by something that only Bullet knows: the
+// substeps of the next tick count on a share kTrust of it and the rest of what they counted on before, so
+// that it settles.
+void Destruction::Impl::noteReactions(double dt) {
+  BT_PROFILE("Rubble note reactions");
+  const std::vector<bullet::Reaction> before = std::exchange(reactions, {});
+  const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
+  const btScalar rate = btScalar(1 / dt);
+  for (const bullet::TouchedBody& t : touched) {
+    if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
+    bullet::Reaction now{
+        t.rigid, rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
+        rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
+    for (const bullet::Reaction& last : before) {
+      if (last.body != now.body) continue;
+      now.linear = last.linear + kTrust * (now.linear - last.linear);
+      now.angular = last.angular + kTrust * (now.angular - last.angular);
+    }
+    reactions.push_back(now);
+  }
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble
