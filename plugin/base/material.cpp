@@ -8,9 +8,10 @@ namespace rubble {
 namespace {
 
 // Assumed, typical of the named material: densities, Bond indices, and `concrete`'s modulus and strengths.
-// The `_soft` ones are softened for games: their moduli are a thousandth, and their strengths about twice
-// what sqrt(E) asks for, by which a blow's stress rho c v keeps its ratio to them; angles are 2 f_t / E.
-// Chosen for the eye everywhere: crushEfficiency and debrisSpeed.
+// The `_soft` ones are softened for games: their moduli, strengths and angles are chosen, not those of any
+// real material. concrete_soft has a thousandth of concrete's modulus and twice the strength that sqrt(E)
+// asks for, by which a blow's stress rho c v keeps its ratio to it. Chosen for the eye everywhere:
+// crushEfficiency and debrisSpeed.
 std::array<Material, 4> presets() {
   Material softConcrete;
   Material concrete;

@@ -8,13 +8,12 @@
 namespace rubble::test {
 namespace {
 
-// Strains at break of 0.011 and 0.11 (concrete_soft), and of 1e-4 and 1e-3 (rock and concrete).
+// Strains at break of 0.011 and 0.11 (more than concrete_soft's), and of 1e-4 and 1e-3 (rock and concrete).
 Material materialOf(bool stiff) {
   Material m = material("concrete_soft");
-  if (!stiff) return m;
-  m.youngsModulus = 3e9;
-  m.tensileStrength = 0.3e6;
-  m.compressiveStrength = 3e6;
+  m.youngsModulus = stiff ? 3e9 : 30e6;
+  m.tensileStrength = stiff ? 0.3e6 : 0.33e6;
+  m.compressiveStrength = 10 * m.tensileStrength;
   return m;
 }
 
