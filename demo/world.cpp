@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "base/hash.h"
+#include "bullet/convert.h"
 #include "demo/input_error.h"
+#include "demo/overlaps.h"
 #include "demo/scene_advice.h"
 #include "demo/solid.h"
 
@@ -129,6 +131,10 @@ World::World(const Scene& scene, const Assets& assets, const LogFunction& log) :
   adviseOnDust(scene, bounds, log);
   for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
   for (const SceneBody& body : scene.impactors) addImpactor(body);
+  StartingBodies starting{.objects = {}, .impactors = m_impactors, .statics = m_statics};
+  for (std::size_t i = 0; i < assets.size(); ++i)
+    starting.objects.push_back({assets[i], bullet::toEigen(placed(scene.objects[i]))});
+  checkOverlaps(scene, starting, log);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     refuseAt(scene, i, [&] { addObject(scene.objects[i], assets[i]); });
   }
