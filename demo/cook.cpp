@@ -1,6 +1,5 @@
 #include "demo/cook.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,15 +48,6 @@ void checkTarget(const CookFileOptions& options) {
     throw InputError("--output", name, "does not end in .rubble-asset, must do so to be known again");
   if (sameFile(options.mesh, options.asset))
     throw InputError("--output", name, "is the mesh itself, must be another file");
-}
-
-// Signed: of an inside-out mesh below 0. An open one has a volume of a kind; cook() refuses both.
-double volumeOf(const SurfaceMesh& mesh) {
-  const Eigen::Vector3d& origin = mesh.vertices[mesh.triangles[0][0]];
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin)) / 6;
-  return sum;
 }
 
 std::uint64_t elementsOfRadius(double radius, double fill, double volume) {

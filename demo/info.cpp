@@ -85,14 +85,13 @@ void describeScene(const Scene& scene, std::ostream& stream) {
   }
   out << "the run\n";
   const double frame = 1 / scene.fps;
-  const double substep = world.destruction().stableSubstep() * scene.substepSafety;
+  const double substep = world.destruction().stableSubstep();
   row(out, "bodies of Bullet") << scene.impactors.size() << " moving, " << scene.statics.size()
                                << " static\n";
   row(out, "frames") << scene.frames << " of " << frame << " s, Bullet at " << scene.bulletRate << " Hz\n";
   if (!assets.empty()) {
-    row(out, "stable substep") << world.destruction().stableSubstep() << " s, about "
-                               << std::ceil(frame / substep) << " substeps a frame of "
-                               << scene.maxSubstepsPerFrame << " allowed\n";
+    row(out, "stable substep") << substep << " s, about " << std::ceil(frame / substep)
+                               << " substeps a frame of " << scene.maxSubstepsPerFrame << " allowed\n";
   }
   row(out, "memory") << "assets " << cooked - before << " MB, world " << built - cooked << " MB\n";
   describeNeeds(scene, out);

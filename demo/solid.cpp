@@ -26,6 +26,14 @@ SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
   throw Error(text.str());
 }
 
+double volumeOf(const SurfaceMesh& mesh) {
+  const Eigen::Vector3d& origin = mesh.vertices[mesh.triangles[0][0]];
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin)) / 6;
+  return sum;
+}
+
 double anchorBandOf(const SurfaceMesh& mesh) {
   constexpr double kRounding = 1e-6;  // [size of the mesh]; floats hold 6e-8
   return std::max(CookOptions().anchorBand, kRounding * acrossOf(mesh));

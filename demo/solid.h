@@ -15,6 +15,9 @@ inline constexpr Limits kMeshScale = {1e-9, 1e6};
 /// its size is none that a solid may have.
 SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
 
+/// [m^3]; of an inside-out mesh below 0. An open one has a volume of a kind; cook() refuses both.
+double volumeOf(const SurfaceMesh& mesh);
+
 /// How far a vertex of a flat side may be from the furthest one and still be anchored: the rounding of a file
 /// of floats [m].
 double anchorBandOf(const SurfaceMesh& mesh);

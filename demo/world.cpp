@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "base/hash.h"
 #include "bullet/convert.h"
@@ -9,6 +11,8 @@
 #include "demo/overlaps.h"
 #include "demo/scene_advice.h"
 #include "demo/solid.h"
+#include "demo/substeps.h"
+#include "demo/words.h"
 
 namespace rubble::demo {
 namespace {
@@ -44,17 +48,6 @@ std::unique_ptr<btCollisionShape> makeShape(const SceneBody& def) {
   return hull;
 }
 
-// The library counts bodies in the order in which they were added, which is that of the scene's objects.
-std::string withObjects(std::string text) {
-  if (text.starts_with("body ")) text.replace(0, 5, "object ");
-  return text;
-}
-
-LogFunction inWordsOfTheScene(const LogFunction& log) {
-  if (!log) return log;
-  return [log](LogLevel level, const std::string& line) { log(level, withObjects(line)); };
-}
-
 DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   DestructionDef def;
   def.precision = scene.precision;
@@ -71,20 +64,38 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   return def;
 }
 
-Asset cookObject(const SceneObject& object, std::uint64_t seed, const ProgressFunction& progress,
-                 const LogFunction& log) {
-  if (!object.asset.empty()) return load(object.asset);
+// An object before the long work: its surface, or what was cooked before.
+struct Uncooked {
+  std::optional<SurfaceMesh> mesh;
+  std::optional<Asset> asset;
+};
+
+Uncooked uncookedObject(const Scene& scene, std::size_t index) {
+  const SceneObject& object = scene.objects[index];
+  Uncooked uncooked;
+  if (!object.asset.empty()) {
+    uncooked.asset = load(object.asset);
+    requireSubsteps(scene, index, uncooked.asset->volume(), uncooked.asset->elementCount());
+    return uncooked;
+  }
+  uncooked.mesh = object.mesh.empty() ? boxMesh(object.size) : readSolid(object.mesh, object.scale);
+  requireSubsteps(scene, index, volumeOf(*uncooked.mesh), object.elements);
+  return uncooked;
+}
+
+Asset cookObject(const SceneObject& object, Uncooked uncooked, std::uint64_t seed,
+                 const ProgressFunction& progress, const LogFunction& log) {
+  if (uncooked.asset) return std::move(*uncooked.asset);
   CookOptions options;
   options.elements = object.elements;
   options.radius = object.radius;
   options.fill = object.fill;
   options.seed = seed;
   options.anchorDirection = object.anchor;
-  if (object.mesh.empty()) return cook(boxMesh(object.size), options, progress, log);
-  const SurfaceMesh mesh = readSolid(object.mesh, object.scale);
-  options.anchorBand = anchorBandOf(mesh);
+  if (object.mesh.empty()) return cook(*uncooked.mesh, options, progress, log);
+  options.anchorBand = anchorBandOf(*uncooked.mesh);
   try {
-    return cook(mesh, options, progress, log);
+    return cook(*uncooked.mesh, options, progress, log);
   } catch (const Error& error) {
     throw Error(object.mesh.string() + ": " + error.what());
   }
@@ -96,17 +107,21 @@ void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
   try {
     work();
   } catch (const Error& error) {
-    throw InputError(scene.file, "objects." + std::to_string(object), error.what());
+    throw InputError(scene.file, "objects." + std::to_string(object), inWordsOfTheScene(error.what()));
   }
 }
 
 }  // namespace
 
 Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const LogFunction& log) {
+  std::vector<Uncooked> uncooked;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    refuseAt(scene, i, [&] { uncooked.push_back(uncookedObject(scene, i)); });
   Assets assets;
-  for (const SceneObject& object : scene.objects) {
-    refuseAt(scene, assets.size(), [&] {
-      assets.push_back(std::make_shared<const Asset>(cookObject(object, scene.seed, progress, log)));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    refuseAt(scene, i, [&] {
+      assets.push_back(std::make_shared<const Asset>(
+          cookObject(scene.objects[i], std::move(uncooked[i]), scene.seed, progress, log)));
     });
   }
   return assets;
@@ -190,9 +205,9 @@ void World::step() {
   try {
     m_world->stepSimulation(btScalar(1 / m_scene.fps), mostTicks, btScalar(1 / m_scene.bulletRate));
   } catch (const Error& error) {
-    throw RunStopped(error.what());
+    throw RunStopped(inWordsOfTheScene(error.what()));
   }
-  if (!m_destruction->failure().empty()) throw RunStopped(withObjects(m_destruction->failure()));
+  if (!m_destruction->failure().empty()) throw RunStopped(inWordsOfTheScene(m_destruction->failure()));
 }
 
 void World::finishTick(double seconds) {

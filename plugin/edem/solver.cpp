@@ -26,7 +26,7 @@ class SolverOf final : public Solver {
 
   std::uint32_t addBody(const BodyDef& def, const Eigen::Vector3d& gravity) override {
     auto body = std::make_unique<Body<Real>>(makeBody<Real>(def, m_nextId));
-    requireStep(def.material.name, stableStepOf(*body), m_world.def);
+    requireStep(*body, def.material, stableStepOf(*body), m_world.def);
     PrestressResult prestressed;
     if (def.anchored && gravity.squaredNorm() > 0) prestressed = prestress(*body, gravity, &m_restCache);
     beginSubstep(*body);

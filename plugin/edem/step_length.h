@@ -45,8 +45,10 @@ class StepLength {
   std::uint32_t m_stiffest = 0;
 };
 
-/// Throws rubble::Error when a material's stable `step` [s] is more than a frame may have.
-void requireStep(const std::string& material, double step, const SolverDef& def);
+/// Throws rubble::Error when a body's stable `step` [s] makes more substeps than a frame may have, and says
+/// how many would do.
+template <class Real>
+void requireStep(const Body<Real>& body, const Material& material, double step, const SolverDef& def);
 
 extern template class StepLength<float>;
 extern template class StepLength<double>;

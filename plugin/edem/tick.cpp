@@ -79,12 +79,12 @@ double longestStep(World<Real>& w, double dt) {
   char text[200];
   if (stable < shortest) {
     std::snprintf(text, sizeof text,
-                  "body %u: its contacts need a substep of %.3g s; max_substeps_per_frame %d allows %.3g s",
+                  "body %u: its contacts need a substep of %.3g s; maxSubstepsPerFrame %d allows %.3g s",
                   w.bodies[w.stepLength.stiffest()]->id, stable, w.def.maxSubstepsPerFrame, shortest);
     w.failure = text;
   } else if (travel < shortest) {
     std::snprintf(text, sizeof text,
-                  "something moves at %.3g m/s, more than max_substeps_per_frame %d can follow: contacts may "
+                  "something moves at %.3g m/s, more than maxSubstepsPerFrame %d can follow: contacts may "
                   "be missed",
                   speed, w.def.maxSubstepsPerFrame);
     w.report.warning = text;

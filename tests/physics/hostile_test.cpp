@@ -85,7 +85,7 @@ TEST(HostileBody, TooStiffForTheSubstepsIsRefusedWithTheStableStep) {
     d.material.density = limits::kDensity.low;
   });
   EXPECT_NE(text.find("stable substep"), std::string::npos);
-  EXPECT_NE(text.find("max_substeps_per_frame"), std::string::npos);
+  EXPECT_NE(text.find("maxSubstepsPerFrame"), std::string::npos);
 }
 
 TEST(HostileTick, NoTimeChangesNothing) {

@@ -79,12 +79,38 @@ TEST_F(Program, EveryBadArgumentIsExitCode2AndOneLine) {
   EXPECT_FALSE(exists("out/small/stats.jsonl"));
 }
 
-TEST_F(Program, ASceneThatNeedsTooManySubstepsIsRefused) {
-  m_folder.write("small.json", kSmallWall);
-  const ChildResult result = run("run small.json --no-render --set max_substeps_per_frame=1");
-  EXPECT_EQ(result.exitCode, 2);
-  EXPECT_NE(result.error.find("rubble: error: small.json: objects.0: "), std::string::npos) << result.error;
-  EXPECT_NE(result.error.find("max"), std::string::npos) << result.error;
+// Each remedy that the line names is tried, and the scene is taken with it.
+TEST_F(Program, TooManySubstepsAreRefusedBeforeTheCookWithWhatWouldDo) {
+  m_folder.write("cube.json", R"({"frames": 1, "max_substeps_per_frame": 60, "statics": [{"shape": "plane"}],
+      "objects": [{"size": [1, 1, 1], "position": [0, 0.5, 0], "elements": 4000}]})");
+  const std::string command = "run cube.json --no-render";
+  const ChildResult result = run(command);
+  expectError(result, 2, "cube.json: objects.0: needs more than ");
+  EXPECT_EQ(lines(result.error), 1) << result.error;  // no progress: nothing was cooked
+  const auto number = [&](const std::string& before, const std::string& after) {
+    const std::size_t end = result.error.find(after, result.error.find(before) + before.size());
+    if (end == std::string::npos) return std::string("none");
+    const std::size_t begin = result.error.rfind(' ', end - 1) + 1;
+    return result.error.substr(begin, end - begin);
+  };
+  EXPECT_EQ(run(command + " --set max_substeps_per_frame=" + number("frame is 60:", " or ")).exitCode, 0);
+  EXPECT_EQ(
+      run(command + " --set objects.0.material.youngs_modulus=" + number("youngs_modulus", " or ")).exitCode,
+      0);
+  EXPECT_EQ(run(command + " --set objects.0.elements=" + number("youngs_modulus", " elements")).exitCode, 0);
+  // So near to the limit that the elements must be known, and then it is exact.
+  const ChildResult near = run(command + " --set max_substeps_per_frame=100");
+  expectError(near, 2, "cube.json: objects.0: material concrete_soft: stable substep is ");
+  EXPECT_NE(near.error.find("max_substeps_per_frame is 100: "), std::string::npos) << near.error;
+  EXPECT_NE(near.error.find(" would do, for contacts too, or a youngs_modulus of "), std::string::npos)
+      << near.error;
+  // An asset's are known at once.
+  m_folder.write("corner.off",
+                 "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  ASSERT_EQ(run("cook corner.off -o box.rubble-asset --elements 100").exitCode, 0);
+  m_folder.write("asset.json",
+                 R"({"max_substeps_per_frame": 3, "objects": [{"asset": "box.rubble-asset"}]})");
+  expectError(run("info asset.json"), 2, "asset.json: objects.0: needs more than ");
 }
 
 TEST_F(Program, InfoSaysWhatASceneNeeds) {
@@ -183,19 +209,18 @@ TEST_F(Program, MemoryThatIsNotThereIsExitCode1) {
 // A block of foam that meets one of stone a hundred thousand times as stiff: the substep does not cover that
 // contact, and the foam's numbers run away.
 TEST_F(Program, ARunThatGoesWrongIsExitCode3AndNamesTheObject) {
-  // Stiff contacts: the block alone needs the substeps that its refusal names, and more of them on the
-  // ground.
+  // Stiff contacts: the block alone needs the substeps that `info` tells, and more of them on the ground.
   const auto scene = [](const std::string& substeps) {
     return R"({"frames": 30, "breaking": false, "statics": [{"shape": "plane"}], "max_substeps_per_frame": )" +
            substeps + R"(, "objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 0.3, 0], "elements": 128,
                "material": {"contact_stiffness": 20}}]})";
   };
-  m_folder.write("tight.json", scene("1"));
-  const ChildResult refused = run("run tight.json --no-render");
-  expectError(refused, 2, "substeps in 1/60 s");
-  const std::size_t end = refused.error.find(" substeps in 1/60 s");
-  const std::size_t begin = refused.error.rfind(' ', end - 1) + 1;
-  m_folder.write("tight.json", scene(refused.error.substr(begin, end - begin)));
+  m_folder.write("tight.json", scene("1000"));
+  const ChildResult info = run("info tight.json");
+  const std::size_t end = info.out.find(" substeps a frame");
+  ASSERT_NE(end, std::string::npos) << info.out;
+  const std::size_t begin = info.out.rfind(' ', end - 1) + 1;
+  m_folder.write("tight.json", scene(info.out.substr(begin, end - begin)));
   expectError(run("run tight.json --no-render"), 3,
               "object 0 (concrete_soft, 0.5 m tall): its contacts need a substep of");
 }
