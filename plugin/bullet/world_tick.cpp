@@ -264,10 +264,7 @@ void Destruction::Impl::closeLedger(double dt) {
 void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
   if (!failure.empty()) return;
   const DestructibleBody::Impl& own = body.impl();
-  failure =
-      own.name + ": " + what + "; " +
-      (own.advice.empty() ? "lower substepSafety, or look for units other than metres, seconds, kilograms"
-                          : own.advice);
+  failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice);
 }
 
 // The solver's message begins with the body, "body 3: ".
@@ -293,7 +290,9 @@ void Destruction::Impl::breakElements() {
     try {
       own.spawner->spawn(c, own.asset->cellFaces(c.element), batch);
     } catch (const Error& error) {  // numbers that have run away
-      return fail(*body, "element " + std::to_string(c.element) + " crushed: " + error.what());
+      return fail(*body,
+                  "element " + std::to_string(c.element) + " crushed: " + error.what() +
+                      "; lower substepSafety, or look for units other than metres, seconds, kilograms");
     }
     if (debrisSystem) {
       debrisSystem->add(batch.pieces);

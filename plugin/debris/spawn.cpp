@@ -20,13 +20,13 @@ constexpr double kLeastInertia = 1e-3;
 
 void requirePositive(double value, const char* name) {
   if (!(value > 0) || value > kLargest)
-    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) + ", must be finite and > 0");
+    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) +
+                ", must be above 0 and at most 1e12");
 }
 
 void requireAtLeastZero(double value, const char* name) {
   if (!(value >= 0) || value > kLargest)
-    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) +
-                ", must be finite and >= 0");
+    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) + ", must be 0 to 1e12");
 }
 
 void requireUsable(const Eigen::Vector3d& value, const char* name) {

@@ -79,8 +79,10 @@ double longestStep(World<Real>& w, double dt) {
   char text[200];
   if (stable < shortest) {
     std::snprintf(text, sizeof text,
-                  "body %u: its contacts need a substep of %.3g s; maxSubstepsPerFrame %d allows %.3g s",
-                  w.bodies[w.stepLength.stiffest()]->id, stable, w.def.maxSubstepsPerFrame, shortest);
+                  "body %u: its contacts need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
+                  "maxSubstepsPerFrame is %d: raise it",
+                  w.bodies[w.stepLength.stiffest()]->id, stable, std::ceil(1.0 / 60 / stable),
+                  w.def.maxSubstepsPerFrame);
     w.failure = text;
   } else if (travel < shortest) {
     std::snprintf(text, sizeof text,
@@ -135,7 +137,9 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     const Real moved2 =
         integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed), w.books);
     if (!std::isfinite(moved2))
-      w.failure = "body " + std::to_string(body.id) + ": the state of its elements is not finite";
+      w.failure = "body " + std::to_string(body.id) +
+                  ": the state of its elements is not finite; lower substepSafety, or look for "
+                  "units other than metres, seconds, kilograms";
     moveMotions(body, kick, step, gravity);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }

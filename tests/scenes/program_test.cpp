@@ -206,9 +206,8 @@ TEST_F(Program, MemoryThatIsNotThereIsExitCode1) {
   expectError(result, 1, "out of memory");
 }
 
-// A block of foam that meets one of stone a hundred thousand times as stiff: the substep does not cover that
-// contact, and the foam's numbers run away.
-TEST_F(Program, ARunThatGoesWrongIsExitCode3AndNamesTheObject) {
+// Contacts that need a shorter substep than the elements alone, more than were allowed.
+TEST_F(Program, ContactsTooStiffStopTheRunWithExitCode3AndTheRemedy) {
   // Stiff contacts: the block alone needs the substeps that `info` tells, and more of them on the ground.
   const auto scene = [](const std::string& substeps) {
     return R"({"frames": 30, "breaking": false, "statics": [{"shape": "plane"}], "max_substeps_per_frame": )" +
@@ -223,6 +222,33 @@ TEST_F(Program, ARunThatGoesWrongIsExitCode3AndNamesTheObject) {
   m_folder.write("tight.json", scene(info.out.substr(begin, end - begin)));
   expectError(run("run tight.json --no-render"), 3,
               "object 0 (concrete_soft, 0.5 m tall): its contacts need a substep of");
+  expectError(run("run tight.json --no-render"), 3, ": raise it");
+}
+
+// Material as soft as E = 1 Pa and 1 kPa, thrown and turned at the highest speeds that a scene may have, and
+// nothing may break: no substep follows that.
+TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
+  const auto stop = [&](const std::string& scene, const std::string& words) {
+    m_folder.write("wild.json", scene);
+    expectError(
+        runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " run wild.json --no-render",
+                 m_folder.path()),
+        3, words);
+    EXPECT_TRUE(exists("out/wild/stats.jsonl"));
+  };
+  stop(R"({"frames": 6, "fps": 1, "bullet_rate": 1, "max_substeps_per_frame": 1000, "breaking": false,
+           "precision": "double", "gravity": [0, -1000, 0],
+           "objects": [{"size": [3.6, 3.6, 0.18], "elements": 40, "velocity": [0, -10000, 0],
+                        "spin": [-10000, 10000, 10000],
+                        "material": {"youngs_modulus": 1, "spring_damping": 0.5}}]})",
+       "object 0 (concrete_soft, 3.6 m tall): the state of its elements is not finite; lower substep_safety, "
+       "or look for units");
+  // What its weight foretells is said with it: rho g H = 1e5 kg/m^3 x 1000 m/s^2 x 0.16 m.
+  stop(R"({"frames": 6, "breaking": false, "precision": "double", "gravity": [0, 1000, 0],
+           "objects": [{"size": [0.16, 0.16, 0.16], "elements": 40, "velocity": [0, 0, 10000],
+                        "spin": [10000, 10000, -10000], "anchor": [0, -1, 0],
+                        "material": {"youngs_modulus": 1000, "density": 100000}}]})",
+       "kilograms; its own weight pulls at its top with 16 MPa, more than its tensile strength of 200 kPa");
 }
 
 // Said before the long work, which would announce itself.
