@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <sstream>
 
 #include "cook/cell_meshes.h"
+#include "cook/cell_reach.h"
 #include "cook/checked_mesh.h"
-#include "cook/hilbert.h"
-#include "cook/packing.h"
+#include "cook/elements.h"
+#include "cook/message.h"
 #include "cook/polyhedron.h"
 #include "cook/random.h"
 #include "cook/restricted_voronoi.h"
-#include "cook/signed_distance.h"
 #include "cook/site_pieces.h"
 #include "cook/springs.h"
 #include "rubble/limits.h"
@@ -22,35 +20,16 @@ namespace {
 
 using namespace cooking;
 
-// Spheres that still overlap deeper than this [2 r] after the relaxation are too many for the solid. Nearly
-// jammed but useful packings were measured at up to 0.11 (a wall 2.4 diameters thick, the ears of a bunny).
-constexpr double kDeepestOverlap = 0.2;
-// A chosen radius that does not fit shrinks by this much at a time, so often at most (down to 1.5 % of the
-// first).
-constexpr double kShrink = 0.9;
-constexpr int kMostShrinks = 40;
+// A cell that reaches farther than this from its element [h, the mean spacing] is a part of the solid that
+// has too few elements. Packings of solids of one thickness reach 1.5 to 2.7; at the default fill h is 2.06
+// radii.
+constexpr double kReach = 3;
 constexpr double kJitter = 1e-6;  // of the Voronoi sites [r]; anything from 1e-9 to 1e-3 was measured to do
 
 // Shares of a cook's time, for the progress bar.
 constexpr double kProgressPacking = 0.1;
 constexpr double kProgressCells = 0.7;
 constexpr double kProgressMeshes = 0.9;
-
-double ballVolume(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
-
-double radiusForFill(double volume, double fill, std::size_t count) {
-  return std::cbrt(fill * volume / double(count) * 3 / (4 * std::numbers::pi));
-}
-
-template <class... Parts>
-std::string line(const Parts&... parts) {
-  std::ostringstream text;
-  text << "cook: ";
-  (text << ... << parts);
-  return text.str();
-}
 
 // `holds` is written such that NaN fails.
 void require(bool holds, const char* option, const auto& value, const std::string& allowed) {
@@ -74,111 +53,39 @@ void checkOptions(const CookOptions& options) {
   }
 }
 
-struct PackedElements {
-  double radius = 0;
-  std::vector<Eigen::Vector3d> centres;
+struct CutElements {
+  Elements elements;
+  RestrictedVoronoi diagram;
 };
 
-class Packer {
- public:
-  Packer(const CheckedMesh& mesh, const CookOptions& options, const ProgressFunction& progress,
-         const LogFunction& log)
-      : m_mesh(mesh),
-        m_options(options),
-        m_progress(progress),
-        m_log(log),
-        m_distance(signedDistance(mesh)) {}
+// Elements packed as densely as can be, unless that leaves parts of the solid without.
+CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, const ProgressFunction& report,
+                       const LogFunction& log) {
+  report(kProgressPacking, "packing");
+  const Packer packer(solid, options, [&report](double share) {
+    report(kProgressPacking + share * (kProgressCells - kProgressPacking), "packing");
+  });
+  const auto cut = [&](Elements elements) {
+    report(kProgressCells, "cutting cells");
+    RestrictedVoronoi diagram =
+        restrictedVoronoi(solid, elements.centres, kJitter * elements.radius, mix(options.seed), log);
+    return CutElements{std::move(elements), std::move(diagram)};
+  };
+  CutElements cells = cut(packer.fill());
+  const double allowed = kReach * std::cbrt(solid.volume / double(options.elements));
+  const double reach = farthestCorner(cells.diagram);
+  if (reach <= allowed) return cells;
 
-  PackedElements run() const {
-    if (m_options.radius > 0) return packAsTold();
-    double radius = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
-    for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
-      Packing packing = packWith(radius);
-      // Not the next radius for which the thickest corners of a thin solid alone have room.
-      const bool hasRoom = packing.centres.size() == m_options.elements;
-      for (; !hasRoom && shrinks + 1 < kMostShrinks && kShrink * radius > packing.usualDepth; ++shrinks)
-        radius *= kShrink;
-      const bool isLast = shrinks == kMostShrinks;
-      if (!isLast && !fits(packing)) continue;
-      requireFit(packing, radius);
-      if (shrinks > 0) warnOfShrink(radius);
-      return finish(std::move(packing), radius);
-    }
-  }
-
- private:
-  PackedElements packAsTold() const {
-    const double radius = m_options.radius;
-    const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
-    if (fill > 1) {
-      throw Error(line(m_options.elements, " elements of radius ", radius, " m fill ", fill,
-                       " times the mesh's volume of ", m_mesh.volume, " m^3; ", whatFits(radius)));
-    }
-    Packing packing = packWith(radius);
-    requireFit(packing, radius);
-    return finish(std::move(packing), radius);
-  }
-
-  Packing packWith(double radius) const {
-    m_distance->fitTo(radius);
-    const PackingDef def{m_options.elements, radius, mix(m_options.seed), m_options.maxOverlap,
-                         m_options.maxIterations};
-    return pack(*m_distance, m_mesh.bounds, def, [this](double share) {
-      m_progress(kProgressPacking + share * (kProgressCells - kProgressPacking), "packing");
-    });
-  }
-
-  bool fits(const Packing& packing) const {
-    return packing.centres.size() == m_options.elements && packing.deepestOverlap <= kDeepestOverlap;
-  }
-
-  void requireFit(const Packing& packing, double radius) const {
-    if (packing.centres.size() < m_options.elements)
-      throw Error(line("no sphere of radius ", radius, " m fits into the mesh: the deepest place found is ",
-                       packing.deepestPlace, " m from its surface"));
-    if (!fits(packing))
-      throw Error(line(m_options.elements, " elements of radius ", radius,
-                       " m do not fit: they overlap by up to ", 100 * packing.deepestOverlap,
-                       " % of their diameter; ", whatFits(radius)));
-  }
-
-  std::string whatFits(double radius) const {
-    const double count = std::floor(m_options.fill * m_mesh.volume / ballVolume(radius));
-    std::ostringstream text;
-    text << "about " << count << " elements of this radius fit, or a radius of about "
-         << radiusForFill(m_mesh.volume, m_options.fill, m_options.elements) << " m";
-    return text.str();
-  }
-
-  void warnOfShrink(double radius) const {
-    if (!m_log) return;
-    const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
-    m_log(LogLevel::Warning, line("elements that fill ", m_options.fill, " of the mesh do not fit; radius ",
-                                  radius, " m taken, which fills ", fill));
-  }
-
-  PackedElements finish(Packing packing, double radius) const {
-    if (m_log) {
-      m_log(LogLevel::Info, line("packed ", packing.centres.size(), " elements of radius ", radius, " m in ",
-                                 packing.iterations, " iterations, deepest overlap ",
-                                 100 * packing.deepestOverlap, " % of the diameter"));
-      constexpr double kNoticed = 0.01;  // [r]
-      if (packing.deepestProtrusion > kNoticed * radius)
-        m_log(LogLevel::Warning,
-              line("an element protrudes by ", packing.deepestProtrusion, " m from the mesh"));
-    }
-    PackedElements elements{radius, {}};
-    for (const std::uint32_t i : hilbertOrder(packing.centres))
-      elements.centres.push_back(packing.centres[i]);
-    return elements;
-  }
-
-  const CheckedMesh& m_mesh;
-  const CookOptions& m_options;
-  const ProgressFunction& m_progress;
-  const LogFunction& m_log;
-  const std::unique_ptr<SignedDistance> m_distance;
-};
+  CutElements even = cut(packer.fillEvenly());
+  const double evenReach = farthestCorner(even.diagram);
+  if (evenReach < reach) cells = std::move(even);
+  if (std::min(reach, evenReach) > allowed)
+    cells.elements.notes.emplace_back(
+        LogLevel::Warning,
+        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, evenReach),
+             " m from its element, more than ", allowed, " m"));
+  return cells;
+}
 
 void measureCells(const RestrictedVoronoi& diagram, Asset& asset) {
   for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
@@ -204,12 +111,9 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   report(0, "checking the mesh");
   const CheckedMesh solid = checkMesh(mesh);
 
-  report(kProgressPacking, "packing");
-  PackedElements elements = Packer(solid, options, report, log).run();
-
-  report(kProgressCells, "cutting cells");
-  const RestrictedVoronoi diagram =
-      restrictedVoronoi(solid, elements.centres, kJitter * elements.radius, mix(options.seed), log);
+  auto [elements, diagram] = packAndCut(solid, options, report, log);
+  for (const auto& [level, text] : elements.notes)
+    if (log) log(level, text);
   const SitePieces pieces = findSitePieces(diagram);
 
   report(kProgressMeshes, "building meshes");

@@ -126,7 +126,9 @@ class Relaxation {
         m_random(def.seed),
         m_grid(bounds, 2 * def.radius, def.count),
         m_moves(def.count),
-        m_protrusion(def.count, 0.0) {}
+        m_protrusion(def.count, 0.0) {
+    m_packing.rooms.assign(def.count, def.radius);
+  }
 
   Packing run(const std::function<void(double)>& progress) {
     m_triesLeft = kTries + kTriesEach * std::int64_t(m_def.count);
@@ -149,6 +151,11 @@ class Relaxation {
 
  private:
   bool start() {
+    for (std::size_t i = 0; i < m_def.start.size(); ++i) {
+      m_packing.centres.push_back(m_def.start[i].place);
+      m_packing.rooms[i] = m_def.start[i].depth;
+    }
+    if (!m_def.start.empty()) return true;
     for (std::size_t i = 0; i < m_def.count; ++i) {
       Eigen::Vector3d place;
       if (!findRoom(place)) return false;
@@ -165,7 +172,7 @@ class Relaxation {
       // Walls hardly thicker than a sphere need the exact distance: interpolated, it is cut off at their
       // middle.
       const bool isPushed = tries >= kBlindTries;
-      if (isPushed) pushInside(place, true);
+      if (isPushed) pushInside(place, m_def.radius, true);
       const double depth = -measure(place, isPushed).value;
       m_packing.deepestPlace = std::max(m_packing.deepestPlace, depth);
       if (depth >= (1 - kFits) * m_def.radius) return true;
@@ -207,15 +214,15 @@ class Relaxation {
     return place;
   }
 
-  // Moves the centre until the sphere is inside; returns how far it still protrudes [m].
-  double pushInside(Eigen::Vector3d& centre, bool isExact) const {
+  // Moves the centre until it is `room` below the surface; returns by how much it still is not [m].
+  double pushInside(Eigen::Vector3d& centre, double room, bool isExact) const {
     for (int k = 0; k < kProjections; ++k) {
       const Distance distance = measure(centre, isExact);
-      const double protrusion = distance.value + m_def.radius;
+      const double protrusion = distance.value + room;
       if (protrusion <= 0) return 0;
       centre -= protrusion * distance.gradient;
     }
-    return std::max(0.0, measure(centre, isExact).value + m_def.radius);
+    return std::max(0.0, measure(centre, isExact).value + room);
   }
 
   Distance measure(const Eigen::Vector3d& centre, bool isExact) const {
@@ -262,13 +269,25 @@ class Relaxation {
   }
 
   void project(bool isExact) {
-    for (std::size_t i = 0; i < m_def.count; ++i) m_protrusion[i] = pushInside(m_packing.centres[i], isExact);
+    for (std::size_t i = 0; i < m_def.count; ++i)
+      m_protrusion[i] = pushInside(m_packing.centres[i], m_packing.rooms[i],
+                                   // in walls thinner than the sphere the fast distance sees no inside
+                                   isExact || m_packing.rooms[i] < m_def.radius);
   }
 
-  // Contacts may press a centre into a tip too narrow for it; it starts again elsewhere.
+  // Contacts may press a centre into a tip too narrow for it. It starts again elsewhere; where elements were
+  // given their places, it takes what room there is.
   void restartStuck() {
-    for (std::size_t i = 0; i < m_def.count; ++i)
-      if (m_protrusion[i] > kStuck * m_def.radius) findRoom(m_packing.centres[i]);
+    for (std::size_t i = 0; i < m_def.count; ++i) {
+      if (m_protrusion[i] <= kStuck * m_def.radius) continue;
+      if (m_def.start.empty()) {
+        findRoom(m_packing.centres[i]);
+      } else {
+        const Room room = findRoomNear(m_distance, m_packing.centres[i], m_def.radius);
+        m_packing.centres[i] = room.place;
+        m_packing.rooms[i] = room.depth;
+      }
+    }
   }
 
   // The fast distance is off near edges of the surface; what it left there is mended with the exact one.
@@ -298,7 +317,7 @@ class Relaxation {
 Packing pack(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def,
              const std::function<void(double)>& progress) {
   assert(def.count > 0 && def.radius > 0 && def.maxOverlap >= 0 && def.maxIterations >= 0);
-  assert(!bounds.isEmpty());
+  assert(!bounds.isEmpty() && (def.start.empty() || def.start.size() == def.count));
   return Relaxation(distance, bounds, def).run(progress);
 }
 

@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
+#include "cook/room.h"
 #include "cook/signed_distance.h"
 
 namespace rubble::cooking {
@@ -17,6 +19,9 @@ struct PackingDef {
   std::uint64_t seed = 0;
   double maxOverlap = 0;  ///< where the relaxation may end [2 r]
   int maxIterations = 0;
+  /// Where the elements start, one each; empty: at random where a sphere fits. Those that start with less
+  /// room than the radius keep it: they may protrude where the solid is thinner than they are.
+  std::span<const Room> start = {};
 };
 
 struct Packing {
@@ -28,6 +33,7 @@ struct Packing {
   /// of this radius fit nearly everywhere, those of `deepestPlace` perhaps in a single corner.
   double usualDepth = 0;
   int iterations = 0;
+  std::vector<double> rooms;  ///< how deep below the surface each is held [m], at most the radius
 };
 
 /// Random start where a sphere fits, then overdamped contact moves and pushes back inside until the spheres

@@ -54,7 +54,10 @@ struct CookOptions {
   double anchorBand = 1e-6;  ///< [m]
 };
 
-/// Cooks a mesh. Throws rubble::Error for meshes that are not closed, not oriented, empty, not finite or that
+/// Cooks a mesh. Parts much thinner than the rest get elements too, at about equal distances: no cell reaches
+/// farther from its element than 3 mean spacings (about 6 radii at the default fill), or a warning says how
+/// far. Where elements are thicker than a wall the radius chosen shrinks, to half at most for the sake of a
+/// few; a warning says which radius or how many elements would do for what protrudes after that. Throws rubble::Error for meshes that are not closed, not oriented, empty, not finite or that
 /// pass through themselves, and when the elements wanted do not fit.
 Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
            const LogFunction& log = {});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -151,6 +152,105 @@ inline SurfaceMesh plateOfStrips(std::uint32_t count) {
 /// 2 m wide, walls of 5 mm: volume 8 - 1.99^3.
 inline SurfaceMesh shell() {
   return joined(boxMesh(Eigen::Vector3d::Constant(2)), reversed(boxMesh(Eigen::Vector3d::Constant(1.99))));
+}
+
+/// The blocks of a grid for which `isFilled(i, j, k)`: block (i, j, k) reaches from x[i], y[j], z[k] to the
+/// next ones.
+template <class IsFilled>
+SurfaceMesh blocks(const std::array<std::vector<double>, 3>& planes, IsFilled&& isFilled) {
+  using Place = std::array<std::size_t, 3>;
+  SurfaceMesh mesh;
+  std::map<Place, std::uint32_t> ids;
+  const auto vertex = [&](const Place& p) {
+    const auto [entry, isNew] = ids.try_emplace(p, std::uint32_t(mesh.vertices.size()));
+    if (isNew) mesh.vertices.emplace_back(planes[0][p[0]], planes[1][p[1]], planes[2][p[2]]);
+    return entry->second;
+  };
+  const auto holds = [&](const Place& b) {  // before the first block wraps round to far behind the last
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (b[axis] >= planes[axis].size() - 1) return false;
+    return bool(isFilled(b[0], b[1], b[2]));
+  };
+  Place b{};
+  for (b[0] = 0; b[0] + 1 < planes[0].size(); ++b[0])
+    for (b[1] = 0; b[1] + 1 < planes[1].size(); ++b[1])
+      for (b[2] = 0; b[2] + 1 < planes[2].size(); ++b[2])
+        for (std::size_t axis = 0; holds(b) && axis < 3; ++axis)
+          for (const bool isUpper : {false, true}) {
+            Place next = b;
+            next[axis] += isUpper ? 1 : std::size_t(-1);
+            if (holds(next)) continue;
+            std::array<std::uint32_t, 4> quad{};
+            for (std::size_t corner = 0; corner < 4; ++corner) {
+              Place p = b;
+              p[axis] += isUpper ? 1 : 0;
+              p[(axis + 1) % 3] += corner == 1 || corner == 2 ? 1 : 0;
+              p[(axis + 2) % 3] += corner >= 2 ? 1 : 0;
+              quad[corner] = vertex(p);
+            }
+            if (!isUpper) std::swap(quad[1], quad[3]);
+            mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+            mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+          }
+  return mesh;
+}
+
+/// A top of 1.2 x 0.8 m, `top` thick, on four legs `leg` wide and 0.7 m high that stand 5 cm from its edges.
+inline SurfaceMesh table(double top, double leg) {
+  return blocks({{{0, 0.05, 0.05 + leg, 1.15 - leg, 1.15, 1.2},
+                  {0, 0.7, 0.7 + top},
+                  {0, 0.05, 0.05 + leg, 0.75 - leg, 0.75, 0.8}}},
+                [](std::size_t i, std::size_t j, std::size_t k) {
+                  return j == 1 || ((i == 1 || i == 3) && (k == 1 || k == 3));
+                });
+}
+
+/// A slab of 1 x 0.3 x 1 m with a slot `gap` wide through it, from one side to 0.8 m deep.
+inline SurfaceMesh slottedSlab(double gap) {
+  return blocks({{{0, 0.5 - gap / 2, 0.5 + gap / 2, 1}, {0, 0.3}, {0, 0.8, 1}}},
+                [](std::size_t i, std::size_t, std::size_t k) { return i != 1 || k == 1; });
+}
+
+/// A plate of 4 x 4 x `thickness` m and apart from it a cube of the same volume.
+inline SurfaceMesh plateAndCube(double thickness) {
+  const double edge = std::cbrt(16 * thickness);
+  return joined(boxMesh({4, thickness, 4}), boxMesh(Eigen::Vector3d::Constant(edge), {0, 3, 0}));
+}
+
+/// A profile (radius, height), from the axis to the axis and upwards, turned about z in `around` steps.
+inline SurfaceMesh turned(const std::vector<Eigen::Vector2d>& profile, std::uint32_t around) {
+  SurfaceMesh mesh;
+  const auto rings = std::uint32_t(profile.size()) - 2;
+  for (std::uint32_t i = 1; i <= rings; ++i)
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double angle = 2 * std::numbers::pi * j / around;
+      mesh.vertices.emplace_back(profile[i].x() * std::cos(angle), profile[i].x() * std::sin(angle),
+                                 profile[i].y());
+    }
+  const std::uint32_t bottom = rings * around;
+  mesh.vertices.emplace_back(0, 0, profile.front().y());
+  mesh.vertices.emplace_back(0, 0, profile.back().y());
+  for (std::uint32_t j = 0; j < around; ++j) {
+    const std::uint32_t j1 = (j + 1) % around;
+    const std::uint32_t last = (rings - 1) * around;
+    mesh.triangles.push_back({bottom, j1, j});
+    mesh.triangles.push_back({bottom + 1, last + j, last + j1});
+    for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+      mesh.triangles.push_back({i * around + j, i * around + j1, (i + 1) * around + j1});
+      mesh.triangles.push_back({i * around + j, (i + 1) * around + j1, (i + 1) * around + j});
+    }
+  }
+  return mesh;
+}
+
+/// Two drums of radius 0.5 and height 0.5 m, joined by a neck of radius `neck` 1 m long.
+inline SurfaceMesh dumbbell(double neck) {
+  return turned({{0, 0}, {0.5, 0}, {0.5, 0.5}, {neck, 0.5}, {neck, 1.5}, {0.5, 1.5}, {0.5, 2}, {0, 2}}, 16);
+}
+
+/// A disc of radius 1 m, `thickness` thick, with a boss of radius 0.3 and height 0.6 m in its middle.
+inline SurfaceMesh plateWithBoss(double thickness) {
+  return turned({{0, 0}, {1, 0}, {1, thickness}, {0.3, thickness}, {0.3, 0.6}, {0, 0.6}}, 24);
 }
 
 /// By the divergence theorem.

@@ -46,6 +46,9 @@ TEST(CookWork, NeedlesCook) {
   ExpectedWarnings warnings;
   const Asset asset = cook(needle(), optionsFor(10), {}, warnings.log());
   EXPECT_EQ(warnings.take("do not fit; radius"), 1);
+  EXPECT_EQ(warnings.take("thinner than the elements"), 1);
+  EXPECT_EQ(warnings.take("protrudes"), 1);
+  EXPECT_EQ(warnings.take("too few elements for the thin parts"), 1);
   EXPECT_NEAR(asset.volume(), 1.0 / 6, 1e-9);
   EXPECT_LT(asset.radius, 0.0056);  // half the height over its longest face at the thick end, 1 / 90
 }

@@ -1,0 +1,179 @@
+#include "cook/elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cook/hilbert.h"
+#include "cook/message.h"
+#include "cook/random.h"
+#include "cook/spread.h"
+#include "rubble/limits.h"
+
+namespace rubble::cooking {
+namespace {
+
+// A chosen radius that does not fit shrinks by this much at a time, so often at most (down to 1.5 % of the
+// first).
+constexpr double kShrink = 0.9;
+constexpr int kMostShrinks = 40;
+
+// Evenly spread elements shrink until all but this share of them have room, but not below this share of the
+// radius: spheres in a thick part would stand far apart for the sake of a thin one. Where most of the solid
+// is thin, not below this share of the room that half of them have.
+constexpr double kWithoutRoom = 0.005;
+constexpr double kLeastRadius = 0.5;
+constexpr double kLeastRoom = 0.8;
+
+double ballVolume(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+double radiusForFill(double volume, double fill, std::size_t count) {
+  return std::cbrt(fill * volume / double(count) * 3 / (4 * std::numbers::pi));
+}
+
+// The least room, but for this share of the elements.
+double roomOfAllBut(double share, const Packing& packing) {
+  std::vector<double> rooms = packing.rooms;
+  const auto least = rooms.begin() + std::ptrdiff_t(share * double(rooms.size()));
+  std::nth_element(rooms.begin(), least, rooms.end());
+  return *least;
+}
+
+}  // namespace
+
+Packer::Packer(const CheckedMesh& mesh, const CookOptions& options, std::function<void(double)> progress)
+    : m_mesh(mesh), m_options(options), m_progress(std::move(progress)), m_distance(signedDistance(mesh)) {}
+
+Elements Packer::fill() const {
+  if (m_options.radius > 0) return fillAsTold();
+  double radius = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
+  for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
+    Packing packing = packWith(radius, {});
+    // Not the next radius for which the thickest corners of a thin solid alone have room.
+    const bool hasRoom = packing.centres.size() == m_options.elements;
+    for (; !hasRoom && shrinks + 1 < kMostShrinks && kShrink * radius > packing.usualDepth; ++shrinks)
+      radius *= kShrink;
+    const bool isLast = shrinks == kMostShrinks;
+    if (!isLast && !fits(packing)) continue;
+    requireFit(packing, radius);
+    Elements elements = finish(std::move(packing), radius);
+    if (shrinks > 0) noteShrink(LogLevel::Warning, radius, elements);
+    return elements;
+  }
+}
+
+Elements Packer::fillAsTold() const {
+  const double radius = m_options.radius;
+  const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
+  if (fill > 1) {
+    throw Error(line(m_options.elements, " elements of radius ", radius, " m fill ", fill,
+                     " times the mesh's volume of ", m_mesh.volume, " m^3; ", whatFits(radius)));
+  }
+  Packing packing = packWith(radius, {});
+  requireFit(packing, radius);
+  return finish(std::move(packing), radius);
+}
+
+Elements Packer::fillEvenly() const {
+  const bool isGiven = m_options.radius > 0;
+  double radius =
+      isGiven ? m_options.radius : radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
+  for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
+    const std::vector<Room> start = startPlaces(radius);
+    Packing packing = packWith(radius, start);
+    if (!isGiven && shrinks < kMostShrinks && !fits(packing)) continue;
+    requireFit(packing, radius);
+    const double taken = isGiven ? radius : radiusInThinParts(packing, radius);
+    for (std::size_t i = 0; i < packing.rooms.size(); ++i)
+      packing.deepestProtrusion = std::max(packing.deepestProtrusion, taken - packing.rooms[i]);
+    Elements elements = finish(packing, taken);
+    const double wanted = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
+    if (!isGiven && taken < wanted)
+      noteShrink(taken < kLeastRadius * wanted ? LogLevel::Warning : LogLevel::Info, taken, elements);
+    noteThinParts(packing, elements);
+    return elements;
+  }
+}
+
+std::vector<Room> Packer::startPlaces(double radius) const {
+  m_distance->fitTo(radius);
+  const double spacing = std::cbrt(m_mesh.volume / double(m_options.elements));
+  return spread(*m_distance, m_mesh, {m_options.elements, radius, spacing, mix(m_options.seed)});
+}
+
+double Packer::radiusInThinParts(const Packing& packing, double radius) const {
+  const double floor = std::min(kLeastRadius * radius, kLeastRoom * roomOfAllBut(0.5, packing));
+  return std::clamp(roomOfAllBut(kWithoutRoom, packing), floor, radius);
+}
+
+Packing Packer::packWith(double radius, std::span<const Room> start) const {
+  m_distance->fitTo(radius);
+  const PackingDef def{m_options.elements,      radius, mix(m_options.seed), m_options.maxOverlap,
+                       m_options.maxIterations, start};
+  return pack(*m_distance, m_mesh.bounds, def, m_progress);
+}
+
+bool Packer::fits(const Packing& packing) const {
+  return packing.centres.size() == m_options.elements && packing.deepestOverlap <= kDeepestOverlap;
+}
+
+void Packer::requireFit(const Packing& packing, double radius) const {
+  if (packing.centres.size() < m_options.elements)
+    throw Error(line("no sphere of radius ", radius, " m fits into the mesh: the deepest place found is ",
+                     packing.deepestPlace, " m from its surface"));
+  if (!fits(packing))
+    throw Error(line(m_options.elements, " elements of radius ", radius,
+                     " m do not fit: they overlap by up to ", 100 * packing.deepestOverlap,
+                     " % of their diameter; ", whatFits(radius)));
+}
+
+std::string Packer::whatFits(double radius) const {
+  const double count = std::floor(m_options.fill * m_mesh.volume / ballVolume(radius));
+  std::ostringstream text;
+  text << "about " << count << " elements of this radius fit, or a radius of about "
+       << radiusForFill(m_mesh.volume, m_options.fill, m_options.elements) << " m";
+  return text.str();
+}
+
+Elements Packer::finish(Packing packing, double radius) const {
+  Elements elements{radius, {}, {}};
+  elements.notes.emplace_back(
+      LogLevel::Info,
+      line("packed ", packing.centres.size(), " elements of radius ", radius, " m in ", packing.iterations,
+           " iterations, deepest overlap ", 100 * packing.deepestOverlap, " % of the diameter"));
+  constexpr double kNoticed = 0.01;  // [r]
+  if (packing.deepestProtrusion > kNoticed * radius)
+    elements.notes.emplace_back(
+        LogLevel::Warning, line("an element protrudes by ", packing.deepestProtrusion, " m from the mesh"));
+  for (const std::uint32_t i : hilbertOrder(packing.centres)) elements.centres.push_back(packing.centres[i]);
+  return elements;
+}
+
+std::string Packer::whatFills(double radius) const {
+  const double count = std::ceil(m_options.fill * m_mesh.volume / ballVolume(radius));
+  if (!limits::kElements.hold(count)) return "more elements than are allowed";
+  std::ostringstream text;
+  text << "about " << count << " elements";
+  return text.str();
+}
+
+void Packer::noteShrink(LogLevel level, double radius, Elements& elements) const {
+  const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
+  elements.notes.emplace_back(
+      level, line("elements that fill ", m_options.fill, " of the mesh do not fit; radius ", radius,
+                  " m taken, which fills ", fill, "; ", whatFills(radius), " would fill it"));
+}
+
+// Where more than a few elements are thicker than the wall they are in.
+void Packer::noteThinParts(const Packing& packing, Elements& elements) const {
+  const double room = roomOfAllBut(kWithoutRoom, packing);
+  constexpr double kNoticed = 0.98;
+  if (room >= kNoticed * elements.radius) return;
+  elements.notes.emplace_back(LogLevel::Warning,
+                              line("walls of ", 2 * room, " m are thinner than the elements; ", room,
+                                   " m as radius would do, or ", whatFills(room)));
+}
+
+}  // namespace rubble::cooking

@@ -1,0 +1,109 @@
+// Solids with thin parts beside thick ones: every part gets elements, and messages say where they are too
+// large.
+#include <gtest/gtest.h>
+
+#include "support/strict_cook.h"
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+// In mean spacings.
+double farthestCorner(const Asset& asset) {
+  double farthest = 0;
+  for (const CellCorner& corner : asset.corners)
+    farthest = std::max(
+        farthest,
+        (asset.vertices[corner.vertex].position.cast<double>() - asset.positions[corner.element]).norm());
+  return farthest / asset.spacing();
+}
+
+struct Case {
+  const char* name;
+  SurfaceMesh mesh;
+  std::size_t elements;
+};
+
+std::vector<Case> cases() {
+  return {{"Table", table(0.1, 0.06), 400},
+          {"TableOfFew", table(0.3, 0.06), 200},
+          {"Dumbbell", dumbbell(0.05), 300},
+          {"PlateWithBoss", plateWithBoss(0.05), 300},
+          {"PlateAndCube", plateAndCube(0.0625), 300},
+          {"TiltedTable", tilted(table(0.1, 0.06)), 400},
+          {"Slab", slottedSlab(0.01), 300}};
+}
+
+class ThinParts : public testing::TestWithParam<std::size_t> {};
+
+// The bound that rubble/cook.h states. Without elements in the legs of the tables a cell reaches 7 and more.
+TEST_P(ThinParts, AreNowhereFarFromTheirElements) {
+  const Case solid = cases()[GetParam()];
+  ExpectedWarnings warnings;
+  const Asset asset = cook(solid.mesh, optionsFor(solid.elements), {}, warnings.log());
+  warnings.take("elements would fill it");
+  EXPECT_EQ(asset.elementCount(), solid.elements);
+  EXPECT_LE(farthestCorner(asset), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solids, ThinParts, testing::Range<std::size_t>(0, cases().size()),
+                         [](const auto& solid) { return std::string(cases()[solid.param].name); });
+
+// Evenly spread elements stand about a spacing apart in a leg as well: 0.7 m hold at least half as many.
+TEST(ThinParts, LegsOfATableHaveElementsThatFitInside) {
+  const double leg = 0.06;
+  const Asset asset = cookStrictly(table(0.1, leg), optionsFor(400));
+  std::array<int, 4> inLegs{};
+  for (const Eigen::Vector3d& p : asset.positions) {
+    if (p.y() > 0.7) continue;
+    const bool isRight = p.x() > 0.6;
+    const bool isBack = p.z() > 0.4;
+    ++inLegs[std::size_t(isRight) + 2 * std::size_t(isBack)];
+    const Eigen::Vector3d middle(isRight ? 1.15 - leg / 2 : 0.05 + leg / 2, p.y(),
+                                 isBack ? 0.75 - leg / 2 : 0.05 + leg / 2);
+    EXPECT_LE((p - middle).cwiseAbs().maxCoeff(), leg / 2 - 0.98 * asset.radius);
+    EXPECT_GE(p.y(), 0.98 * asset.radius);
+  }
+  for (const int count : inLegs) EXPECT_GE(count, int(0.7 / (2 * asset.spacing())));
+}
+
+// As many as its volume's share at least: a plate thinner than the spacing needs more.
+TEST(ThinParts, PlateHasItsShareBesideACube) {
+  ExpectedWarnings warnings;
+  const Asset asset = cook(plateAndCube(0.0625), optionsFor(600), {}, warnings.log());
+  EXPECT_EQ(warnings.take("elements would fill it"), 1);
+  int inPlate = 0;
+  for (const Eigen::Vector3d& p : asset.positions) inPlate += p.y() < 0.1 ? 1 : 0;
+  EXPECT_GE(inPlate, 300);
+  EXPECT_LE(inPlate, 540);  // and the cube is not left without
+}
+
+TEST(ThinParts, GiveTheSameBytesForTheSameSeed) {
+  const Asset first = cookStrictly(table(0.1, 0.06), optionsFor(200));
+  const Asset second = cookStrictly(table(0.1, 0.06), optionsFor(200));
+  EXPECT_EQ(first.positions, second.positions);
+  EXPECT_EQ(first.radius, second.radius);
+}
+
+// Half of the legs' 2 cm is the radius that would do, and with it nothing protrudes.
+TEST(ThinParts, ThatAreThinnerThanTheElementsAreNamedWithWhatWouldDo) {
+  ExpectedWarnings warnings;
+  cook(table(0.5, 0.02), optionsFor(300), {}, warnings.log());
+  EXPECT_EQ(warnings.take("thinner than the elements; 0.00"), 1);
+  EXPECT_EQ(warnings.take("protrudes"), 1);
+  CookOptions options = optionsFor(300);
+  options.radius = 0.0098;
+  EXPECT_LE(farthestCorner(cookStrictly(table(0.5, 0.02), options)), 3);
+}
+
+// In a solid that is thin nearly everywhere all elements fit, and the message says how many would fill it.
+TEST(ThinParts, OfMostOfTheSolidMakeTheElementsSmall) {
+  ExpectedWarnings warnings;
+  const Asset asset = cook(plateAndCube(0.02), optionsFor(300), {}, warnings.log());
+  EXPECT_LE(asset.radius, 0.01);
+  EXPECT_GE(asset.radius, 0.008);
+  EXPECT_EQ(warnings.take("elements would fill it"), 1);
+}
+
+}  // namespace
+}  // namespace rubble::test
