@@ -74,7 +74,7 @@ void buildCap(const VoronoiDiagram& diagram, std::span<const OutlineEdge> outlin
   } else {
     triangulateFan(loops[0], result.triangles);
   }
-  result.caps.push_back({first, second, start, std::uint32_t(result.triangles.size()) - start});
+  result.caps.push_back({first, second, start, std::uint32_t(result.triangles.size()) - start, true});
 }
 
 }  // namespace

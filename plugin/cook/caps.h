@@ -14,6 +14,7 @@ struct Cap {
   std::uint32_t second;
   std::uint32_t firstTriangle;  ///< into Caps::triangles
   std::uint32_t triangleCount;
+  bool isFlat = true;  ///< lies on the bisector of the two sites
 };
 
 struct Caps {

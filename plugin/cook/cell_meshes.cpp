@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "cook/corner_normals.h"
 
@@ -55,6 +57,8 @@ class CellMeshBuilder {
   }
 
  private:
+  using TrianglePolygon = std::pair<std::uint32_t, std::uint32_t>;
+
   std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal) {
     m_asset.corners.push_back({vertex, cell, normal});
     return std::uint32_t(m_asset.corners.size() - 1);
@@ -97,7 +101,8 @@ class CellMeshBuilder {
 
   void addCap(std::uint32_t cell, const Cap& cap) {
     const std::uint32_t other = cap.first == cell ? cap.second : cap.first;
-    const Eigen::Vector3d normal = (m_diagram.sites[other] - m_diagram.sites[cell]).normalized();
+    const Eigen::Vector3d normal =
+        cap.isFlat ? (m_diagram.sites[other] - m_diagram.sites[cell]).normalized() : bentNormal(cap, cell);
     m_capCorners.clear();
     FaceSums sums;
     m_diagram.visitCap(cap, cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -114,20 +119,36 @@ class CellMeshBuilder {
     m_asset.faces.push_back({other, float(area), normal.cast<float>(), sums.centroid().cast<float>()});
   }
 
+  // Of the pieces' bisectors together, as they were cut.
+  Eigen::Vector3d bentNormal(const Cap& cap, std::uint32_t cell) const {
+    FaceSums sums;
+    m_diagram.visitCap(cap, cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      sums.add(m_diagram.vertices[a], m_diagram.vertices[b], m_diagram.vertices[c]);
+    });
+    const double length = sums.area.norm();
+    return length > 0 ? Eigen::Vector3d(sums.area / length) : Eigen::Vector3d::UnitZ();
+  }
+
   // One face for each connected set of surface polygons that look nearly the same way.
   void addPatches(std::uint32_t cell) {
     const auto polygons = m_diagram.polygonsOf.of(cell);
-    std::map<std::uint32_t, std::uint32_t>
-        polygonOnTriangle;  // one at most: cells are convex before they are clipped
-    for (const std::uint32_t p : polygons)
-      polygonOnTriangle.emplace(m_diagram.surface.polygons[p].triangle, p);
+    std::set<TrianglePolygon> left;  // one on a triangle, but for pieces that came from other cells
+    for (const std::uint32_t p : polygons) left.emplace(m_diagram.surface.polygons[p].triangle, p);
     // From the largest on; of equal ones the first triangle's.
     std::vector<std::pair<double, std::uint32_t>> bySize;
-    for (const auto& [triangle, p] : polygonOnTriangle) bySize.emplace_back(polygonSize(p), p);
+    for (const auto& [triangle, p] : left) bySize.emplace_back(polygonSize(p), p);
     std::stable_sort(bySize.begin(), bySize.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     for (const auto& [size, p] : bySize)
-      if (polygonOnTriangle.contains(m_diagram.surface.polygons[p].triangle)) addPatch(p, polygonOnTriangle);
+      if (left.contains({m_diagram.surface.polygons[p].triangle, p})) addPatch(p, left);
+  }
+
+  void takeOn(std::uint32_t triangle, const Eigen::Vector3d& orientation, std::set<TrianglePolygon>& left) {
+    for (auto next = left.lower_bound({triangle, 0}); next != left.end() && next->first == triangle;) {
+      if (m_mesh.normals[triangle].dot(orientation) < kPatchCosine) return;
+      m_queue.push_back(next->second);
+      next = left.erase(next);
+    }
   }
 
   double polygonSize(std::uint32_t p) const {
@@ -143,23 +164,21 @@ class CellMeshBuilder {
   }
 
   // Floods from the polygon `first` and takes what it reaches out of `left`.
-  void addPatch(std::uint32_t first, std::map<std::uint32_t, std::uint32_t>& left) {
+  void addPatch(std::uint32_t first, std::set<TrianglePolygon>& left) {
     const SurfacePieces& surface = m_diagram.surface;
     const Eigen::Vector3d orientation = m_mesh.normals[surface.polygons[first].triangle];
     FaceSums sums;
     m_queue.assign(1, first);
-    left.erase(surface.polygons[first].triangle);
+    left.erase({surface.polygons[first].triangle, first});
     for (std::size_t at = 0; at < m_queue.size(); ++at) {
       const SurfacePolygon& polygon = surface.polygons[m_queue[at]];
       addSums(polygon, sums);
       for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const std::uint32_t label = surface.labels[polygon.first + k];
         if (label < kSideLabel) continue;
-        const auto next = left.find(m_mesh.neighbours[polygon.triangle][label - kSideLabel]);
-        if (next == left.end() || m_mesh.normals[next->first].dot(orientation) < kPatchCosine) continue;
-        m_queue.push_back(next->second);
-        left.erase(next);
+        takeOn(m_mesh.neighbours[polygon.triangle][label - kSideLabel], orientation, left);
       }
+      takeOn(polygon.triangle, orientation, left);
     }
     const double length = sums.area.norm();
     const Eigen::Vector3d normal = length > 0 ? Eigen::Vector3d(sums.area / length) : orientation;

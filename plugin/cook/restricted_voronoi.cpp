@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cook/adoption.h"
 #include "cook/contradiction.h"
 #include "cook/polyhedron.h"
 #include "cook/random.h"
@@ -51,16 +52,7 @@ RestrictedVoronoi cut(const CheckedMesh& mesh, std::vector<Eigen::Vector3d> site
   result.sites = std::move(sites);
   result.vertices = pool.positions();
   result.vertexSites = pool.sites();
-  result.polygonsOf = cellLists(result.cellCount(), [&](auto&& add) {
-    for (std::uint32_t p = 0; p < result.surface.polygons.size(); ++p)
-      add(result.surface.polygons[p].site, p);
-  });
-  result.capsOf = cellLists(result.cellCount(), [&](auto&& add) {
-    for (std::uint32_t c = 0; c < result.caps.caps.size(); ++c) {
-      add(result.caps.caps[c].first, c);
-      add(result.caps.caps[c].second, c);
-    }
-  });
+  result.listItems();
   return result;
 }
 
@@ -106,6 +98,18 @@ void checkVolume(const RestrictedVoronoi& diagram, double expected) {
 
 }  // namespace
 
+void RestrictedVoronoi::listItems() {
+  polygonsOf = cellLists(cellCount(), [&](auto&& add) {
+    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) add(surface.polygons[p].site, p);
+  });
+  capsOf = cellLists(cellCount(), [&](auto&& add) {
+    for (std::uint32_t c = 0; c < caps.caps.size(); ++c) {
+      add(caps.caps[c].first, c);
+      add(caps.caps[c].second, c);
+    }
+  });
+}
+
 RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eigen::Vector3d> sites,
                                     double jitter, std::uint64_t seed, const LogFunction& log) {
   assert(!sites.empty() && jitter > 0);
@@ -115,6 +119,9 @@ RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eig
       RestrictedVoronoi result = cut(mesh, jittered(sites, jitter, seed + std::uint64_t(attempt)));
       checkClosed(result);
       checkVolume(result, mesh.volume);
+      if (const std::size_t orphans = adoptPieces(result); orphans > 0 && log)
+        log(LogLevel::Info, "cook: pieces of cells in shells without elements: " + std::to_string(orphans));
+      checkClosed(result);
       return result;
     } catch (const Contradiction& contradiction) {
       reason = contradiction.what();

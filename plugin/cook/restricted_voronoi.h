@@ -60,6 +60,9 @@ struct RestrictedVoronoi {
       }
     }
   }
+  /// Makes the lists of the cells' items anew.
+  void listItems();
+
   template <class Visit>
   void visitCell(std::uint32_t cell, Visit&& visit) const {
     for (const std::uint32_t p : polygonsOf.of(cell)) visitPolygon(surface.polygons[p], visit);

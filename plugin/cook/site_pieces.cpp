@@ -20,7 +20,7 @@ class Components {
       m_vertices.insert(m_vertices.end(), triangle.begin(), triangle.end());
     std::sort(m_vertices.begin(), m_vertices.end());
     m_vertices.erase(std::unique(m_vertices.begin(), m_vertices.end()), m_vertices.end());
-    m_parent.resize(m_vertices.size());
+    m_parent.assign(m_vertices.size(), 0);
     std::iota(m_parent.begin(), m_parent.end(), std::size_t{0});
     for (const Triangle& triangle : triangles)
       for (const std::uint32_t v : triangle) m_parent[root(local(v))] = root(local(triangle[0]));
@@ -74,14 +74,16 @@ class CellPieces {
     m_site = largest->first;
     // A shell with negative volume bounds a cavity, not a piece.
     for (const auto& [component, shell] : shells)
-      if (component != m_site && shell.integrals.volume() > 0) m_foreign.push_back(component);
+      if (component != m_site && shell.integrals.volume() > 0) m_foreign.push_back(std::uint32_t(component));
   }
 
-  bool isOwn(const Triangle& triangle) {
-    return m_foreign.empty() ||
-           std::find(m_foreign.begin(), m_foreign.end(), m_components.of(triangle)) == m_foreign.end();
+  // 0: the piece of the site; others from 1.
+  std::uint32_t pieceOf(const Triangle& triangle) {
+    const auto found =
+        std::find(m_foreign.begin(), m_foreign.end(), std::uint32_t(m_components.of(triangle)));
+    return found == m_foreign.end() ? 0 : std::uint32_t(found - m_foreign.begin()) + 1;
   }
-  bool isWhole() const { return m_foreign.empty(); }
+  std::size_t foreignCount() const { return m_foreign.size(); }
 
  private:
   static std::vector<Triangle> collect(const RestrictedVoronoi& diagram, std::uint32_t cell) {
@@ -95,28 +97,36 @@ class CellPieces {
   std::vector<Triangle> m_triangles;
   Components m_components;
   std::size_t m_site = 0;
-  std::vector<std::size_t> m_foreign;
+  std::vector<std::uint32_t> m_foreign;  // components
 };
 
 }  // namespace
 
 SitePieces findSitePieces(const RestrictedVoronoi& diagram) {
   const std::size_t triangles = diagram.caps.triangles.size();
-  SitePieces pieces{std::vector<bool>(diagram.surface.polygons.size(), true),
-                    std::vector<bool>(triangles, true), std::vector<bool>(triangles, true)};
+  SitePieces pieces{std::vector<std::uint32_t>(diagram.surface.polygons.size(), 0),
+                    std::vector<std::uint32_t>(triangles, 0),
+                    std::vector<std::uint32_t>(triangles, 0),
+                    {}};
   for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
     if (diagram.polygonsOf.of(cell).empty()) continue;  // whole convex cells are of one piece
     CellPieces cellPieces(diagram, cell);
-    if (cellPieces.isWhole()) continue;
+    if (cellPieces.foreignCount() == 0) continue;
+    const auto before = std::uint32_t(pieces.foreign.size());
+    const auto pieceOf = [&cellPieces, before](const Triangle& triangle) {
+      const std::uint32_t piece = cellPieces.pieceOf(triangle);
+      return piece == 0 ? 0 : piece + before;
+    };
+    pieces.foreign.insert(pieces.foreign.end(), cellPieces.foreignCount(), cell);
     for (const std::uint32_t p : diagram.polygonsOf.of(cell)) {
       const std::uint32_t* v = diagram.surface.vertices.data() + diagram.surface.polygons[p].first;
-      pieces.polygons[p] = cellPieces.isOwn({v[0], v[1], v[2]});
+      pieces.polygons[p] = pieceOf({v[0], v[1], v[2]});
     }
     for (const std::uint32_t c : diagram.capsOf.of(cell)) {
       const Cap& cap = diagram.caps.caps[c];
-      std::vector<bool>& flags = cap.first == cell ? pieces.trianglesFirst : pieces.trianglesSecond;
+      std::vector<std::uint32_t>& flags = cap.first == cell ? pieces.trianglesFirst : pieces.trianglesSecond;
       for (std::uint32_t t = cap.firstTriangle; t < cap.firstTriangle + cap.triangleCount; ++t)
-        flags[t] = cellPieces.isOwn(diagram.caps.triangles[t]);
+        flags[t] = pieceOf(diagram.caps.triangles[t]);
     }
   }
   return pieces;

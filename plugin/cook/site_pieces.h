@@ -7,13 +7,14 @@
 
 namespace rubble::cooking {
 
-/// Whether parts of the cells' meshes belong to the piece that holds the cell's site. The other pieces stay
-/// with their owner as geometry, but carry no springs and no anchors: those would tie elements together
+/// To which piece of its cell each part of a cell's mesh belongs: 0 is the one that holds the site, others
+/// count from 1 through all cells. Those carry no springs and no anchors, which would tie elements together
 /// through a gap.
 struct SitePieces {
-  std::vector<bool> polygons;        ///< one a surface polygon
-  std::vector<bool> trianglesFirst;  ///< one a cap triangle, as part of the cap's first cell
-  std::vector<bool> trianglesSecond;
+  std::vector<std::uint32_t> polygons;        ///< one a surface polygon
+  std::vector<std::uint32_t> trianglesFirst;  ///< one a cap triangle, as part of the cap's first cell
+  std::vector<std::uint32_t> trianglesSecond;
+  std::vector<std::uint32_t> foreign;  ///< the cell of piece k + 1
 };
 
 SitePieces findSitePieces(const RestrictedVoronoi& diagram);

@@ -24,12 +24,16 @@ std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const Sit
   for (const Cap& cap : diagram.caps.caps) {
     const Eigen::Vector3d normal = (diagram.sites[cap.second] - diagram.sites[cap.first]).normalized();
     double area = 0;
+    Eigen::Vector3d bent = Eigen::Vector3d::Zero();
     for (std::uint32_t t = cap.firstTriangle; t < cap.firstTriangle + cap.triangleCount; ++t) {
-      if (!pieces.trianglesFirst[t] || !pieces.trianglesSecond[t]) continue;
+      if (pieces.trianglesFirst[t] != 0 || pieces.trianglesSecond[t] != 0) continue;
       const auto& [a, b, c] = diagram.caps.triangles[t];
       const Eigen::Vector3d& origin = diagram.vertices[a];
-      area += normal.dot((diagram.vertices[b] - origin).cross(diagram.vertices[c] - origin)) / 2;
+      const Eigen::Vector3d share = (diagram.vertices[b] - origin).cross(diagram.vertices[c] - origin) / 2;
+      area += normal.dot(share);
+      bent += share;
     }
+    if (!cap.isFlat) area = bent.norm();
     if (area > 0 && area >= leastArea) springs.push_back({cap.first, cap.second, area});
   }
   return springs;
@@ -49,7 +53,7 @@ std::vector<AssetAnchor> findAnchors(const CheckedMesh& mesh, const RestrictedVo
     for (const std::uint32_t p : diagram.polygonsOf.of(cell)) {
       const SurfacePolygon& polygon = diagram.surface.polygons[p];
       const Eigen::Vector3d& normal = mesh.normals[polygon.triangle];
-      if (!pieces.polygons[p] || along.dot(normal) < kAnchorCosine) continue;
+      if (pieces.polygons[p] != 0 || along.dot(normal) < kAnchorCosine) continue;
       if (!isAnchored(diagram, polygon, along, furthest - band)) continue;
       diagram.visitPolygon(polygon, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
         const Eigen::Vector3d& a = diagram.vertices[i];

@@ -23,6 +23,7 @@ std::vector<Case> cases() {
           {"L", ell(), 300},
           {"U", you(0.5), 300},
           {"Slot", you(0.01), 400},
+          {"SlottedSlab", slottedSlab(0.01), 300},
           {"Torus", torus(1, 0.3, 48, 24), 300},
           {"Ball", ball(1, 16), 200},
           {"HollowCube", hollowCube(), 300},
