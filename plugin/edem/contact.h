@@ -108,6 +108,7 @@ template <class Real>
 struct ContactLoad {
   Vec3<Real> elastic, damping;              ///< [N]
   Vec3<Real> elasticTorque, dampingTorque;  ///< beside that of the arms [N m]
+  Real full = 0;                            ///< normal force before any is withheld [N]
   Real energy = 0;                          ///< in the three springs [J]
   Real slipped = 0;                         ///< lost by sliding and giving way since the last step [J]
 };
@@ -190,11 +191,13 @@ ContactLoad<Real> contactLoad(const ContactLaw<Real>& law, const ContactMotion<R
   const Vec3<Real>& normal = motion.normal;
   const Real pushed = law.stiffness * motion.overlap * motion.share;
   const Real normalSpeed = motion.approach.dot(normal);
-  const Real total = (Real(1) - motion.withheld) * std::fmax(Real(0), pushed - law.damping * normalSpeed);
+  const Real full = std::fmax(Real(0), pushed - law.damping * normalSpeed);
+  const Real total = (Real(1) - motion.withheld) * full;
 
   ContactLoad<Real> load = slidingLoad(law, motion, total, law.rollingReach, moved, memory);
   load.elastic += pushed * normal;
   load.damping += (total - pushed) * normal;
+  load.full = full;
   load.energy += Real(0.5) * law.stiffness * motion.overlap * motion.overlap;
   return load;
 }

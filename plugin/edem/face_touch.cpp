@@ -174,8 +174,8 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     const Eigen::Vector3d lever = hit.at.cross(hit.normal);
     const double dashpot = hit.weight * law.damping / std::sqrt(1 + lever.squaredNorm() / motion.gyration);
     const double parting = hit.normal.dot(fragment.centre + fragment.spin.cross(hit.at));
-    const double kept = 1 - withheld(law.inelastic, parting, fragment.jolt);
-    const double damped = kept * std::fmax(0.0, pushed + dashpot * speed) - pushed;
+    const double kept = 1 - withheld(law.inelastic, parting, fragment.jolt, fragment.resting);
+    const double whole = std::fmax(0.0, pushed + dashpot * speed), damped = kept * whole - pushed;
     elastic += pushed * hit.normal;
     damping += damped * hit.normal;
     elasticTorque += pushed * lever;
@@ -185,6 +185,7 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     elasticTorque += turned;
     dampingTorque -= (1 - kept) * turned;
     energy += 0.5 * stiffness * depth * depth;
+    full += whole;
     at += hit.weight * depth * hit.at;
     normal += hit.weight * depth * hit.normal;
     weight += hit.weight * depth;

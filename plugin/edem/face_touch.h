@@ -81,7 +81,8 @@ struct ElementMotion {
 /// Motion of an element's fragment relative to a rigid body, in the same axes and about the same point.
 struct PartingMotion {
   Eigen::Vector3d centre, spin;
-  double jolt;  ///< see withheld in fragment_motion.h [m/s]
+  double jolt;     ///< see withheld in fragment_motion.h [m/s]
+  double resting;  ///< share of the force, see resting_loads.h
 };
 
 /// The normal forces of all hits as one contact; axes of the element at rest, torques about its centre.
@@ -93,6 +94,7 @@ struct FacePress {
   double total = 0;                                  // force along it [N]
   double spread = 0;                                 // mean distance of the pressure from its centroid [m]
   double weight = 0;                                 // sum of the hits' weight times depth; 0: no contact
+  double full = 0;                                   // the same before any is withheld [N]
   double energy = 0;                                 // [J]
 
   /// `sunk` is taken off every depth. Each hit has its share of the law's dashpot, less at a lever, where the

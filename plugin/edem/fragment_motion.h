@@ -16,20 +16,15 @@ void beginMotions(Body<Real>& body);
 template <class Real>
 void moveMotions(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity);
 
-/// Adds what a contact at the world point `at` does to the fragment of element i [N], [N m].
-template <class Real>
-void pushMotion(Body<Real>& body, std::uint32_t i, const Eigen::Vector3d& at, const Eigen::Vector3d& force,
-                const Eigen::Vector3d& torque) {
-  FragmentMotion& motion = body.motions[body.motionOf[i]];
-  motion.force += force;
-  motion.torque += (at - motion.centre).cross(force) + torque;
-  motion.pressing += force.norm();
-}
+/// Adds what a contact at the world point `at` does to a fragment [N], [N m].
+void pushMotion(FragmentMotion& motion, const Eigen::Vector3d& at, const Eigen::Vector3d& force,
+                const Eigen::Vector3d& torque);
 
 /// Share of the normal force that a contact withholds while its two bodies separate (Poisson's hypothesis: a
-/// blow gives back e^2 of the energy that it took). `parting` is the speed at which they do [m/s], `jolt` the
-/// change of it that the contacts of both make in a substep: below a quarter of that nobody can tell parting
-/// from trembling.
-double withheld(double inelastic, double parting, double jolt);
+/// blow gives back e^2 of the energy that it took), but not of the share `resting`
+/// (resting_loads.h), unless they separate so fast that nothing rests.
+/// `parting` is the speed at which they do [m/s], `jolt` the change of it that the contacts of both make in a
+/// substep: below a quarter of that nobody can tell parting from trembling.
+double withheld(double inelastic, double parting, double jolt, double resting);
 
 }  // namespace rubble::edem

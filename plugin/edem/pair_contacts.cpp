@@ -9,6 +9,14 @@
 namespace rubble::edem {
 namespace {
 
+constexpr std::size_t kNoRest = ~std::size_t(0);
+
+template <class Real>
+LoadedThing thingOf(const Body<Real>& body, std::uint32_t i, const RestingLoads& resting) {
+  return {fragmentName(body.id, body.fragment[i]), body.motions[body.motionOf[i]].inverseMass,
+          resting.gravity()};
+}
+
 // One touching pair. Loads on the second element.
 template <class Real>
 struct PairTouch {
@@ -16,7 +24,9 @@ struct PairTouch {
   ContactLoad<Real> load;
   Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
   Eigen::Vector3d at;              // contact point, world [m]
+  Eigen::Vector3d full;            // on the second of that pair, before any is withheld [N]
   Real power = 0;                  // of the elastic loads [W]
+  std::size_t resting = kNoRest;   // place among the resting loads
   Real lost = 0;                   // by a pair that has parted [J]
 };
 
@@ -34,7 +44,8 @@ Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b,
 
 template <class Real>
 PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<double>& offset,
-                          Body<Real>& a, Body<Real>& b, const Steps& steps, ContactMemory<Real>& memory) {
+                          Body<Real>& a, Body<Real>& b, const Steps& steps, RestingLoads& resting,
+                          ContactMemory<Real>& memory) {
   PairTouch<Real> touch;
   const Real moved = Real(steps.moved), next = Real(steps.next);
   const PairEntry& entry = list.entries[k];
@@ -70,15 +81,21 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
   motion.share = touchShare(motion.overlap, speed, next, memory.onset);
   touch.at = a.origin + a.position[i] + touch.armFirst.template cast<double>();
+  bool turned = false;
   const FragmentMotion &fragmentA = a.motions[a.motionOf[i]], &fragmentB = b.motions[b.motionOf[j]];
   if (&fragmentA != &fragmentB) {
     const double parting = (fragmentB.velocityAt(touch.at) - fragmentA.velocityAt(touch.at))
                                .dot(motion.normal.template cast<double>());
-    motion.withheld = Real(withheld(double(list.law.inelastic), parting,
-                                    steps.next * (fragmentA.pressed * fragmentA.inverseMass +
-                                                  fragmentB.pressed * fragmentB.inverseMass)));
+    const LoadedThing thingA = thingOf(a, i, resting), thingB = thingOf(b, j, resting);
+    turned = thingB.name < thingA.name;
+    touch.resting = turned ? resting.pairOf(thingB, thingA) : resting.pairOf(thingA, thingB);
+    motion.withheld = Real(withheld(
+        double(list.law.inelastic), parting,
+        steps.next * (fragmentA.pressed * fragmentA.inverseMass + fragmentB.pressed * fragmentB.inverseMass),
+        resting.share(touch.resting)));
   }
   touch.load = contactLoad(list.law, motion, moved, memory);
+  touch.full = (turned ? -1 : 1) * double(touch.load.full) * motion.normal.template cast<double>();
   touch.power = touch.load.elastic.dot(motion.approach) + touch.load.elasticTorque.dot(motion.spin);
   return touch;
 }
@@ -104,7 +121,7 @@ void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body
 
 template <class Real>
 void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
-                        Books& books) {
+                        RestingLoads& resting, Books& books) {
   assert(list.memory.size() == list.entries.size() && steps.moved >= 0 && steps.next >= 0);
   const Vec3<double> offset = b.origin - a.origin;
   list.elastic = 0;
@@ -112,7 +129,7 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
     ContactMemory<Real>& memory = list.memory[k];
-    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, steps, memory);
+    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, steps, resting, memory);
     if (!touch.touches) {
       if (entry.touching) {
         slipped += double(touch.lost);
@@ -131,21 +148,22 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
     const Eigen::Vector3d force = (touch.load.elastic + touch.load.damping).template cast<double>();
     const Eigen::Vector3d torque =
         (touch.load.elasticTorque + touch.load.dampingTorque).template cast<double>();
-    if (&a == &b && a.motionOf[entry.first] == b.motionOf[entry.second]) continue;
-    pushMotion(a, entry.first, touch.at, -force, -torque);
-    pushMotion(b, entry.second, touch.at, force, torque);
+    if (touch.resting == kNoRest) continue;
+    pushMotion(a.motions[a.motionOf[entry.first]], touch.at, -force, -torque);
+    pushMotion(b.motions[b.motionOf[entry.second]], touch.at, force, torque);
+    resting.push(touch.resting, touch.full);
   }
   books.dissipated.add(-slipped, 0);
 }
 
 template <class Real>
 void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
-                     Books& books) {
+                     RestingLoads& resting, Books& books) {
   const Vec3<double> offset = b.origin - a.origin;
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
     if (!entry.touching || (!a.leaving[entry.first] && !b.leaving[entry.second])) continue;
-    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, Steps{0, step}, list.memory[k]);
+    const PairTouch<Real> touch = touchPair(list, k, offset, a, b, Steps{0, step}, resting, list.memory[k]);
     if (!touch.touches) continue;
     addTouch(touch, a, entry.first, b, entry.second, Real(-1));
     list.elastic -= double(touch.load.energy);
@@ -156,9 +174,13 @@ void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double 
   }
 }
 
-template void accumulateContacts(PairList<float>&, Body<float>&, Body<float>&, const Steps&, Books&);
-template void accumulateContacts(PairList<double>&, Body<double>&, Body<double>&, const Steps&, Books&);
-template void releaseContacts(PairList<float>&, Body<float>&, Body<float>&, double, double, Books&);
-template void releaseContacts(PairList<double>&, Body<double>&, Body<double>&, double, double, Books&);
+template void accumulateContacts(PairList<float>&, Body<float>&, Body<float>&, const Steps&, RestingLoads&,
+                                 Books&);
+template void accumulateContacts(PairList<double>&, Body<double>&, Body<double>&, const Steps&, RestingLoads&,
+                                 Books&);
+template void releaseContacts(PairList<float>&, Body<float>&, Body<float>&, double, double, RestingLoads&,
+                              Books&);
+template void releaseContacts(PairList<double>&, Body<double>&, Body<double>&, double, double, RestingLoads&,
+                              Books&);
 
 }  // namespace rubble::edem

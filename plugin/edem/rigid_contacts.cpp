@@ -302,6 +302,15 @@ double RigidContacts<Real>::joltOf(const FragmentMotion& fragment, std::uint32_t
          (fragment.pressed * fragment.inverseMass + m_states[proxy].pressed * m_proxies[proxy].inverseMass);
 }
 
+template <class Real>
+std::size_t RigidContacts<Real>::restingOf(const Candidate& c, const Body<Real>& body,
+                                           RestingLoads& resting) const {
+  const RigidProxy& proxy = m_proxies[c.proxy];
+  return resting.pairOf({rigidName(m_states[c.proxy].key), proxy.inverseMass, proxy.acceleration},
+                        {fragmentName(body.id, body.fragment[c.element]),
+                         body.motions[body.motionOf[c.element]].inverseMass, resting.gravity()});
+}
+
 // The load of a contact on an element at out.at.
 template <class Real>
 void RigidContacts<Real>::finish(const ContactMotion<double>& motion, const ContactLoad<double>& load,
@@ -311,6 +320,7 @@ void RigidContacts<Real>::finish(const ContactMotion<double>& motion, const Cont
   const auto rounded = [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     return v.cast<Real>().template cast<double>();
   };
+  out.full = load.full * motion.normal;
   out.force = rounded(load.elastic + load.damping);
   out.torque = rounded(arm.cross(load.elastic + load.damping) + load.elasticTorque + load.dampingTorque);
   out.dampingForce = rounded(load.damping);
@@ -321,10 +331,11 @@ void RigidContacts<Real>::finish(const ContactMotion<double>& motion, const Cont
 }
 
 template <class Real>
-bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Steps& steps, Touch& out) {
+bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Steps& steps,
+                                RestingLoads& resting, Touch& out) {
   const std::uint32_t i = c.element;
   if (!body.alive[i]) return false;
-  if (body.cells) return touchFaces(c, body, steps, out);
+  if (body.cells) return touchFaces(c, body, steps, resting, out);
   const RigidProxy& proxy = m_proxies[c.proxy];
   out.x = body.origin + body.position[i];
   const SurfacePoint surface = nearestPart(proxy, out.x);
@@ -360,7 +371,9 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   const double parting =
       (fragment.velocityAt(out.at) - proxy.velocity - proxy.spin.cross(out.at - proxy.position))
           .dot(motion.normal);
-  motion.withheld = withheld(law.inelastic, parting, joltOf(fragment, c.proxy, steps.next));
+  out.resting = restingOf(c, body, resting);
+  motion.withheld =
+      withheld(law.inelastic, parting, joltOf(fragment, c.proxy, steps.next), resting.share(out.resting));
 
   finish(motion, contactLoad(law, motion, steps.moved, c.memory), out);
   return true;
@@ -382,7 +395,8 @@ double RigidContacts<Real>::sink(Candidate& c, const Body<Real>& body, double sp
 }
 
 template <class Real>
-bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const Steps& steps, Touch& out) {
+bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const Steps& steps,
+                                     RestingLoads& resting, Touch& out) {
   const std::uint32_t i = c.element;
   const RigidProxy& proxy = m_proxies[c.proxy];
   const CellFaces& cells = *body.cells;
@@ -408,11 +422,12 @@ bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const
   const FragmentMotion& fragment = body.motions[body.motionOf[i]];
   const Eigen::Vector3d parting =
       fragment.velocityAt(out.x) - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
+  out.resting = restingOf(c, body, resting);
   const FacePress press(
       m_faces.hits(), law, sink(c, body, fastest, steps.moved),
       {turn.transpose() * velocity, turn.transpose() * motion.spin, body.inertia[i] / body.mass[i]},
       {turn.transpose() * parting, turn.transpose() * (fragment.spin - proxy.spin),
-       joltOf(fragment, c.proxy, steps.next)},
+       joltOf(fragment, c.proxy, steps.next), resting.share(out.resting)},
       {m_moved, steps.next});
   if (!(press.weight > 0)) {
     out.slipped = lostAtParting(law, velocity, motion.spin, steps.moved, c.memory);
@@ -432,6 +447,7 @@ bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const
   load.elasticTorque += turn * press.elasticTorque - arm.cross(pushed);
   load.dampingTorque += turn * press.dampingTorque - arm.cross(damped);
   load.energy += press.energy;
+  load.full = press.full;
   finish(motion, load, out);
   return true;
 }
@@ -496,16 +512,16 @@ void RigidContacts<Real>::setMotion(RigidProxy& proxy, const Motion& motion) {
 // left it; what they have in them then and now is the host's work.
 template <class Real>
 bool RigidContacts<Real>::touchMoved(Candidate& c, const Body<Real>& body, const Steps& steps, double kick,
-                                     Books& books, Touch& out) {
+                                     RestingLoads& resting, Books& books, Touch& out) {
   RigidProxy& proxy = m_proxies[c.proxy];
   const Motion now = motionOf(proxy);
   Touch before;
   setMotion(proxy, m_states[c.proxy].left);
-  const bool touched = touch(c, body, steps, before);
+  const bool touched = touch(c, body, steps, resting, before);
   setMotion(proxy, now);
   if (!touched) part(c.memory);
   c.touching = touched;
-  const bool touches = touch(c, body, {0, steps.next}, out);
+  const bool touches = touch(c, body, {0, steps.next}, resting, out);
   out.slipped = before.slipped;
   const double work = out.energy - before.energy + 0.5 * kick * (out.power - before.power);
   books.bullet.work.add(work, 0);
@@ -515,7 +531,8 @@ bool RigidContacts<Real>::touchMoved(Candidate& c, const Body<Real>& body, const
 }
 
 template <class Real>
-void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double kick, Books& books) {
+void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double kick, RestingLoads& resting,
+                                     Books& books) {
   for (ProxyState& s : m_states) {
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
@@ -534,8 +551,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     if (body.cells && body.exposure.area[c.element] > c.exposed) body.touchesBegun[c.element] = 2;
     Touch t;
     const bool touched = c.touching;
-    c.touching =
-        m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, books, t) : touch(c, body, steps, t);
+    c.touching = m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, resting, books, t)
+                                         : touch(c, body, steps, resting, t);
     c.energy = t.energy;
     slipped += t.slipped;
     if (!c.touching) {
@@ -544,7 +561,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     }
     if (!touched) ++body.touchesBegun[c.element];
     add(t, c, body);
-    pushMotion(body, c.element, t.x, t.force, t.torque);
+    pushMotion(body.motions[body.motionOf[c.element]], t.x, t.force, t.torque);
+    resting.push(t.resting, t.full);
     const double size = kick * t.force.norm();
     proxy.contactPoint += size * t.at;
     proxy.contactWeight += size;
@@ -571,14 +589,15 @@ void RigidContacts<Real>::release(Bodies bodies, double kick, Books& books) {
 }
 
 template <class Real>
-void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Books& books) {
+void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, RestingLoads& resting,
+                                 Books& books) {
   for (Candidate& c : m_candidates) {
     Body<Real>& body = *bodies[c.body];
     if (!c.touching || !body.cells || c.faces.area == body.exposure.area[c.element]) continue;
     const Touch before = m_pushes[c.push].touch;
     take(c, body);
     Touch now;
-    c.touching = touch(c, body, {0, step}, now);
+    c.touching = touch(c, body, {0, step}, resting, now);
     c.energy = now.energy;
     if (c.touching)
       add(now, c, body);

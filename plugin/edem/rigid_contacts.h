@@ -9,6 +9,7 @@
 
 #include "edem/face_touch.h"
 #include "edem/pair_lists.h"
+#include "edem/resting_loads.h"
 #include "edem/rigid_proxy.h"
 #include "edem/stable_step.h"
 #include "edem/stages.h"
@@ -51,11 +52,11 @@ class RigidContacts {
   }
 
   /// Contact forces on elements and proxies (paper 3.1.2, "interaction with other objects").
-  void accumulate(Bodies bodies, const Steps& steps, double kick, Books& books);
+  void accumulate(Bodies bodies, const Steps& steps, double kick, RestingLoads& resting, Books& books);
   /// Takes the contacts of leaving elements out of this substep.
   void release(Bodies bodies, double kick, Books& books);
   /// Touches anew, in this substep, what breaks have exposed more of; once they are applied.
-  void expose(Bodies bodies, double step, double kick, Books& books);
+  void expose(Bodies bodies, double step, double kick, RestingLoads& resting, Books& books);
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
   /// Energy in the contacts [J].
@@ -126,6 +127,8 @@ class RigidContacts {
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
     Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
     double energy = 0, slipped = 0, power = 0;
+    Eigen::Vector3d full = Eigen::Vector3d::Zero();  // normal force on it before any is withheld [N]
+    std::size_t resting = 0;                         // place among the resting loads
   };
   // What a contact does in this substep.
   struct Push {
@@ -142,13 +145,16 @@ class RigidContacts {
   void remember(Candidate& candidate);
   void weighFaces(Candidate& candidate, const Body<Real>& body);
   ElementRates ratesOf(const Candidate& candidate, const Body<Real>& body, double& frequency2) const;
-  bool touchFaces(Candidate& candidate, const Body<Real>& body, const Steps& steps, Touch& out);
+  bool touchFaces(Candidate& candidate, const Body<Real>& body, const Steps& steps, RestingLoads& resting,
+                  Touch& out);
   double sink(Candidate& candidate, const Body<Real>& body, double speed, double moved) const;
   static void finish(const ContactMotion<double>& motion, const ContactLoad<double>& load, Touch& out);
   double joltOf(const FragmentMotion& fragment, std::uint32_t proxy, double step) const;
-  bool touch(Candidate& candidate, const Body<Real>& body, const Steps& steps, Touch& out);
-  bool touchMoved(Candidate& candidate, const Body<Real>& body, const Steps& steps, double kick, Books& books,
-                  Touch& out);
+  bool touch(Candidate& candidate, const Body<Real>& body, const Steps& steps, RestingLoads& resting,
+             Touch& out);
+  std::size_t restingOf(const Candidate& candidate, const Body<Real>& body, RestingLoads& resting) const;
+  bool touchMoved(Candidate& candidate, const Body<Real>& body, const Steps& steps, double kick,
+                  RestingLoads& resting, Books& books, Touch& out);
   static Motion motionOf(const RigidProxy& proxy);
   static void setMotion(RigidProxy& proxy, const Motion& motion);
   void add(const Touch& touch, Candidate& candidate, Body<Real>& body);

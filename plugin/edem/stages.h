@@ -9,6 +9,7 @@
 #include "edem/body.h"
 #include "edem/books.h"
 #include "edem/pair_lists.h"
+#include "edem/resting_loads.h"
 #include "rubble/events.h"
 
 namespace rubble::edem {
@@ -42,7 +43,8 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
 
 /// Element contacts of one list (paper 3.1.2), of one body or two; their energy goes into list.elastic.
 template <class Real>
-void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps, Books& books);
+void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
+                        RestingLoads& resting, Books& books);
 
 /// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to
 /// the overloaded ones.
@@ -52,7 +54,7 @@ void markCrushed(Body<Real>& body);
 /// Takes the contacts of leaving elements out of this substep, as applyBreaks does with springs.
 template <class Real>
 void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
-                     Books& books);
+                     RestingLoads& resting, Books& books);
 
 /// Takes the overloaded springs out: their force of this substep, their place in the graph, their energy into
 /// books.fracture.

@@ -104,10 +104,11 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
         body->asleep ? body->sleepingElastic : accumulateSprings(*body, kick, w.def.breaking, w.books);
   for (PairList<Real>& l : w.lists.lists()) {
     Body<Real>&a = *w.bodies[l.first], &b = *w.bodies[l.second];
-    if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {w.lastStep, step}, w.books);
+    if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {w.lastStep, step}, w.resting, w.books);
     w.books.elastic += l.elastic;
   }
-  w.rigid.accumulate(w.bodies, {w.lastStep, step}, kick, w.books);
+  w.rigid.accumulate(w.bodies, {w.lastStep, step}, kick, w.resting, w.books);
+  w.resting.settle();
   w.books.elastic += w.rigid.elastic();
 
   const std::size_t brokenBegin = w.report.broken.size();
@@ -119,12 +120,12 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   }
   if (anyCrushed) {
     for (PairList<Real>& l : w.lists.lists())
-      releaseContacts(l, *w.bodies[l.first], *w.bodies[l.second], step, kick, w.books);
+      releaseContacts(l, *w.bodies[l.first], *w.bodies[l.second], step, kick, w.resting, w.books);
     w.rigid.release(w.bodies, kick, w.books);
   }
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b)
     if (!w.bodies[b]->asleep) applyBreaks(*w.bodies[b], b, kick, w.lists, w.books, w.report);
-  if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.books);
+  if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.resting, w.books);
 
   w.books.mass = w.books.kinetic = 0;
   w.books.linear = w.books.angular = Eigen::Vector3d::Zero();
@@ -178,6 +179,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   if (!std::isfinite(dt)) w.failure = "the time step is not finite";
   if (!w.failure.empty() || !(dt > 0)) return;
   w.rigid.beginTick(proxies);
+  w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
   for (auto& body : w.bodies)
     if (!body->asleep || body->motions.empty()) beginMotions(*body);

@@ -8,6 +8,7 @@
 #include "edem/body.h"
 #include "edem/books.h"
 #include "edem/pair_lists.h"
+#include "edem/resting_loads.h"
 #include "edem/rigid_contacts.h"
 #include "edem/solver_def.h"
 #include "edem/stages.h"
@@ -21,6 +22,7 @@ struct World {
   std::vector<std::unique_ptr<Body<Real>>> bodies;
   PairLists<Real> lists;
   RigidContacts<Real> rigid;
+  RestingLoads resting;
   StepLength<Real> stepLength;
   bool listsStale = true;
   double lastStep = 0;  ///< of the positions; 0 before the first [s]

@@ -104,7 +104,7 @@ class OneBody {
     m_lists.build(m_bodies, 0.5 * double(b.radius));
     m_books.elastic = edem::accumulateSprings(b, step, breaking, m_books);
     for (edem::PairList<Real>& l : m_lists.lists()) {
-      edem::accumulateContacts(l, b, b, {step, step}, m_books);
+      edem::accumulateContacts(l, b, b, {step, step}, m_resting, m_books);
       m_books.elastic += l.elastic;
     }
     edem::applyBreaks(b, 0, step, m_lists, m_books, m_report);
@@ -118,6 +118,7 @@ class OneBody {
  private:
   std::vector<std::unique_ptr<edem::Body<Real>>> m_bodies;
   edem::PairLists<Real> m_lists;
+  edem::RestingLoads m_resting;
   edem::Books m_books;
   edem::TickReport m_report;
 };

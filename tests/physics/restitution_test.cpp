@@ -63,11 +63,13 @@ TYPED_TEST(Restitution, BlockThatLandsOnItsEdgeHardlyBounces) {
 }
 
 TEST(Withheld, NothingIsWithheldWhileABlowComes) {
-  EXPECT_EQ(edem::withheld(1, -3, 0), 0);
-  EXPECT_EQ(edem::withheld(1, 0, 0), 0);
-  EXPECT_EQ(edem::withheld(0.75, 3, 0.1), 0.75);
-  EXPECT_NEAR(edem::withheld(0.75, 0.01, 0), 0.375, 1e-12);
-  EXPECT_NEAR(edem::withheld(0.75, 0.5, 4), 0.375, 1e-12) << "trembling of the contacts themselves";
+  EXPECT_EQ(edem::withheld(1, -3, 0, 0), 0);
+  EXPECT_EQ(edem::withheld(1, 0, 0, 0), 0);
+  EXPECT_EQ(edem::withheld(0.75, 3, 0.1, 0), 0.75);
+  EXPECT_NEAR(edem::withheld(0.75, 0.05, 0, 0), 0.375, 1e-12);
+  EXPECT_NEAR(edem::withheld(0.75, 0.5, 4, 0), 0.375, 1e-12) << "trembling of the contacts themselves";
+  EXPECT_NEAR(edem::withheld(0.75, 0.1, 0, 0.4), 0.6, 1e-12) << "what rests stays";
+  EXPECT_EQ(edem::withheld(0.75, 3, 0, 0.4), 0.75) << "at such a speed nothing rests";
 }
 
 TYPED_TEST(Restitution, LeavesTheBlowAsItIs) {

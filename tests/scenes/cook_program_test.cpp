@@ -185,8 +185,8 @@ TEST_F(CookProgram, AFullDiskIsExitCode1AndLeavesNoHalfFile) {
 }
 
 TEST_F(CookProgram, AFolderThatCannotBeWrittenIsExitCode1) {
-  m_folder.write("a.off", kCorner);
-  expectError(run("cook a.off -o /proc/a.rubble-asset"), 1, "/proc/a.rubble-asset: cannot be written");
+  m_folder.write("a.obj", kBox);
+  expectError(run("cook a.obj -o /proc/a.rubble-asset"), 1, "/proc/a.rubble-asset: cannot be written");
 }
 
 // The mesh lies beside the scene's file, not in the working folder.
