@@ -12,7 +12,6 @@
 #include "demo/marked_text.h"
 #include "demo/output_file.h"
 #include "demo/progress.h"
-#include "rubble/version.h"
 
 namespace rubble::demo {
 namespace {
@@ -175,7 +174,7 @@ std::vector<Sweep> defaultSweeps() {
   return {{"precision", {"float", "double"}}, {"substep_safety", {"0.9", "0.45", "0.225"}}};
 }
 
-std::string reportHash(const ReportOptions& options) {
+std::string reportHash(const ReportOptions& options, std::span<const SolverVersion> versions) {
   base::Fnv1a hash;
   const auto add = [&](const std::string& text) { hash.add(std::as_bytes(std::span(text))); };
   for (const Scene& scene : scenesOf(options)) {
@@ -184,8 +183,10 @@ std::string reportHash(const ReportOptions& options) {
       if (!isLook) add(line + "\n");
     }
   }
-  hash.add(kSolverVersionFloat);
-  hash.add(kSolverVersionDouble);
+  for (const SolverVersion& version : versions) {
+    add(version.precision);
+    for (const std::uint64_t part : {version.world, version.debris, version.dust}) hash.add(part);
+  }
   return hashText(hash.value());
 }
 

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "demo/scene.h"
+#include "rubble/version.h"
 
 namespace rubble::demo {
 
@@ -31,9 +33,10 @@ struct ReportOptions {
 /// Float and double, each at the scene's substep, a half and a quarter of it.
 std::vector<Sweep> defaultSweeps();
 
-/// What the numbers of a report depend on: every key of every scene in it, and the version of the solver. As
-/// 16 hexadecimal digits.
-std::string reportHash(const ReportOptions& options);
+/// What the numbers of a report depend on: every key of every scene in it, and the version of the solver, of
+/// the debris and of the emitted dust. As 16 hexadecimal digits.
+std::string reportHash(const ReportOptions& options,
+                       std::span<const SolverVersion> versions = kSolverVersions);
 
 /// Runs every combination without pictures and dust, prints a Markdown table, writes it as SCENE.csv and, if
 /// asked, between the markers of a Markdown file. Throws InputError before the first run when a setting or a

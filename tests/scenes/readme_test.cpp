@@ -106,6 +106,21 @@ TEST_F(Marked, TheHashKnowsTheSceneAndNotItsLook) {
   EXPECT_NE(demo::reportHash(options), first);
 }
 
+// A table counts broken springs, crushed elements and dust, and says how fast the impactor comes out.
+TEST_F(Marked, TheHashKnowsEveryPartOfTheSolversVersion) {
+  demo::ReportOptions options;
+  options.scene = m_folder.write("small.json", kSmallWall);
+  const std::string first = demo::reportHash(options);
+  for (std::size_t i = 0; i < std::size(kSolverVersions); ++i) {
+    for (std::uint64_t SolverVersion::*part :
+         {&SolverVersion::world, &SolverVersion::debris, &SolverVersion::dust}) {
+      std::vector<SolverVersion> versions(std::begin(kSolverVersions), std::end(kSolverVersions));
+      versions[i].*part ^= 1;
+      EXPECT_NE(demo::reportHash(options, versions), first) << versions[i].precision;
+    }
+  }
+}
+
 TEST(Sweep, IsAKeyAndItsValues) {
   const demo::Sweep sweep = demo::parseSweep("impactors.0.velocity=[0,0,2];[0,0,5]");
   EXPECT_EQ(sweep.key, "impactors.0.velocity");
