@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "base/hash.h"
+#include "bench/asset_hash.h"
 #include "bench/result_table.h"
 #include "bench/topic.h"
 #include "demo/input_error.h"
@@ -13,6 +15,7 @@
 #include "scenes/child.h"
 #include "scenes/scene_file.h"
 #include "support/folders.h"
+#include "unit/cook/shapes.h"
 
 namespace rubble::test {
 namespace {
@@ -38,6 +41,39 @@ TEST(BenchTopic, UnknownIsRefusedWithThoseThereAre) {
     FAIL();
   } catch (const demo::InputError& error) {
     EXPECT_NE(std::string(error.what()).find(benchTopics().front().name), std::string::npos) << error.what();
+  }
+}
+
+std::uint64_t hashOf(const Asset& asset) {
+  base::Fnv1a hash;
+  addAsset(hash, asset);
+  return hash.value();
+}
+
+TEST(AssetHash, KnowsEveryField) {
+  const Asset cooked = cook(wallMesh(), optionsFor(64));
+  ASSERT_EQ(hashOf(cooked), hashOf(Asset(cooked)));
+  using Change = void (*)(Asset&);
+  const std::pair<const char*, Change> changes[] = {
+      {"radius", [](Asset& a) { a.radius *= 2; }},
+      {"position", [](Asset& a) { a.positions.back().z() += 1e-12; }},
+      {"volume", [](Asset& a) { a.volumes.back() *= 2; }},
+      {"gyration", [](Asset& a) { a.gyrations.back() *= 2; }},
+      {"spring's ends", [](Asset& a) { std::swap(a.springs.back().first, a.springs.back().second); }},
+      {"spring's area", [](Asset& a) { a.springs.back().area *= 2; }},
+      {"anchor",
+       [](Asset& a) {
+         a.anchors.push_back({0, 1, Eigen::Vector3d::Zero()});
+       }},
+      {"vertex", [](Asset& a) { a.vertices.back().elements[3] = 0; }},
+      {"corner", [](Asset& a) { a.corners.back().normal *= -1; }},
+      {"triangle", [](Asset& a) { std::swap(a.triangles.back()[0], a.triangles.back()[1]); }},
+      {"face", [](Asset& a) { a.faces.back().centroid.x() += 1; }},
+      {"cell", [](Asset& a) { ++a.cells.back().innerTriangles; }}};
+  for (const auto& [field, change] : changes) {
+    Asset other = cooked;
+    change(other);
+    EXPECT_NE(hashOf(other), hashOf(cooked)) << field;
   }
 }
 

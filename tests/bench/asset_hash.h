@@ -1,0 +1,29 @@
+// What the cook made, to the last bit.
+#pragma once
+
+#include <type_traits>
+
+#include "base/asset_format.h"
+#include "base/hash.h"
+#include "rubble/asset.h"
+
+namespace rubble::test {
+
+/// Adds every field of the asset, as its file holds them, and how many of each there are.
+inline void addAsset(base::Fnv1a& hash, const Asset& asset) {
+  const auto add = [&hash](const auto& value) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      hash.add(value);
+    } else {
+      for (const auto number : value) hash.add(number);
+    }
+  };
+  hash.add(asset.radius);
+  for (const std::size_t count :
+       {asset.positions.size(), asset.springs.size(), asset.anchors.size(), asset.vertices.size(),
+        asset.corners.size(), asset.triangles.size(), asset.faces.size(), asset.cells.size()})
+    hash.add(count);
+  base::visitAssetFields(asset, add);
+}
+
+}  // namespace rubble::test
