@@ -53,7 +53,7 @@ std::unique_ptr<DustGrid> makeDust(const Scene& scene, Renderer3D renderer, int 
   if (backend == DustBackend::Auto)
     backend = renderer == Renderer3D::Hardware ? DustBackend::Gl : DustBackend::Cpu;
   if (backend == DustBackend::Gl && renderer == Renderer3D::None) {
-    throw InputError(scene.file, "dust.backend",
+    throw InputError(scene.blamed("dust.backend"), "dust.backend",
                      "is \"gl\" in a run without pictures, must be auto or cpu there");
   }
   try {
@@ -63,7 +63,7 @@ std::unique_ptr<DustGrid> makeDust(const Scene& scene, Renderer3D renderer, int 
   } catch (const MachineError&) {
     throw;
   } catch (const Error& error) {
-    throw InputError(scene.file, "dust", error.what());
+    throw InputError(scene.blamed("dust"), "dust", error.what());
   }
 }
 

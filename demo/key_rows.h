@@ -79,20 +79,23 @@ Key<T> word(std::string name, M member, Words<E> words, std::string meaning) {
     names.push_back(text);
     type += (type.empty() ? "" : ", ") + text;
   }
-  return {std::move(name),
-          std::move(type),
-          "",
-          std::move(meaning),
-          [=](T& target, const Json& json, const Place& place) {
-            const std::string chosen = readWord(json, names, place);
-            for (const auto& [text, value] : words)
-              if (text == chosen) target.*member = value;
-          },
-          [=](const T& target) {
-            for (const auto& [text, value] : words)
-              if (value == target.*member) return text;
-            return std::string();
-          }};
+  return {.name = std::move(name),
+          .type = std::move(type),
+          .unit = "",
+          .meaning = std::move(meaning),
+          .read =
+              [=](T& target, const Json& json, const Place& place) {
+                const std::string chosen = readWord(json, names, place);
+                for (const auto& [text, value] : words)
+                  if (text == chosen) target.*member = value;
+              },
+          .standard =
+              [=](const T& target) {
+                for (const auto& [text, value] : words)
+                  if (value == target.*member) return text;
+                return std::string();
+              },
+          .isChoice = true};
 }
 
 /// An object that is always there; its keys have defaults.

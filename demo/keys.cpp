@@ -12,21 +12,15 @@ std::string kind(const Json& value) {
   return std::string("is ") + shown(value);
 }
 
+// A path as objects.0.size makes an object of the key 0 where there is no list.
+void refuseIndex(const Json& value, const Place& place) {
+  if (!value.is_object() || value.empty()) return;
+  const std::string name = value.items().begin().key();
+  if (name.empty() || name.find_first_not_of("0123456789") != name.npos) return;
+  place.child(name).refuse("unknown index", "there is no list yet: give " + place.path + " whole, [...]");
+}
+
 }  // namespace
-
-std::string Place::source() const {
-  std::string prefix = path;
-  while (true) {
-    if (const auto found = origins->find(prefix); found != origins->end()) return found->second;
-    if (prefix.empty()) return "scene";
-    const auto dot = prefix.rfind('.');
-    prefix = dot == std::string::npos ? "" : prefix.substr(0, dot);
-  }
-}
-
-void Place::refuse(const std::string& wrong, const std::string& allowed) const {
-  throw InputError(source(), path, wrong + ", " + allowed);
-}
 
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 60;  // characters of a value that still help to find it
@@ -76,6 +70,7 @@ std::string readWord(const Json& value, const std::vector<std::string>& words, c
 }
 
 Eigen::Vector3d readVector(const Json& value, const Limits& limits, const Place& place) {
+  refuseIndex(value, place);
   if (!value.is_array() || value.size() != 3) place.refuse(kind(value), "must be a list of three numbers");
   Eigen::Vector3d vector;
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,6 +84,7 @@ void requireObject(const Json& value, const Place& place) {
 }
 
 void requireList(const Json& value, const Place& place) {
+  refuseIndex(value, place);
   if (!value.is_array()) place.refuse(kind(value), "must be a list [...]");
 }
 

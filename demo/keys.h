@@ -4,31 +4,17 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "demo/input_error.h"
+#include "demo/place.h"
 #include "rubble/limits.h"
 
 namespace rubble::demo {
 
 using Json = nlohmann::json;
-
-/// Which source (a file or `--set`) each dotted path came from; the longest matching prefix counts.
-using Origins = std::map<std::string, std::string>;
-
-/// Where a value stands.
-struct Place {
-  const Origins* origins;
-  std::string path;
-
-  Place child(const std::string& name) const { return {origins, path.empty() ? name : path + "." + name}; }
-  std::string source() const;
-  [[noreturn]] void refuse(const std::string& wrong, const std::string& allowed) const;
-};
 
 /// The value as an error message shows it: one line, not too long.
 std::string shown(const Json& value);
@@ -58,9 +44,11 @@ struct Key {
   std::function<bool(const T&)> applies = nullptr;  // looked at when the rows above it have been read
   std::string appliesTo = {};
   bool isRequired = false;
+  bool isChoice = false;  // other rows apply or not by its value
   std::function<void(std::vector<KeyLine>&, const std::string&)> describeNested = nullptr;
   std::function<std::string(const T&)> limit =
-      nullptr;  // what is allowed when the value does not fit the others, or ""
+      nullptr;                           // what is allowed when the value does not fit the others, or ""
+  std::vector<std::string> others = {};  // those, which may be at fault as well
   // Lines of a nested value; null for values that `standard` shows.
   std::function<void(std::vector<std::string>&, const T&, const std::string&)> listNested = nullptr;
 
@@ -73,8 +61,9 @@ struct Key {
     applies = std::move(when);
     return std::move(*this);
   }
-  Key must(std::function<std::string(const T&)> allowed) && {
+  Key must(std::function<std::string(const T&)> allowed, std::vector<std::string> fitting = {}) && {
     limit = std::move(allowed);
+    others = std::move(fitting);
     return std::move(*this);
   }
 };
@@ -90,6 +79,18 @@ std::string acceptedKeys(const Table<T>& table, const T& target) {
   return text;
 }
 
+/// Where the keys stand by which the row `name` applies or not; none when it always does or there is none.
+template <class T>
+std::vector<std::string> choicesAbout(const Table<T>& table, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  bool isConditional = false;
+  for (const Key<T>& key : table) {
+    if (key.isChoice) names.push_back(key.name);
+    isConditional |= key.name == name && bool(key.applies);
+  }
+  return isConditional ? place.children(names) : std::vector<std::string>();
+}
+
 /// Reads one object row by row, in the table's order.
 template <class T>
 void readObject(const Table<T>& table, T& target, const Json& json, const Place& place) {
@@ -102,16 +103,19 @@ void readObject(const Table<T>& table, T& target, const Json& json, const Place&
       key.read(target, *entry, place.child(key.name));
       ++found;
     } else if (key.isRequired) {
-      place.child(key.name).refuse("is missing", "must be given (" + key.type + ")");
+      place.child(key.name).refuse("is missing", "must be given (" + key.type + ")",
+                                   choicesAbout(table, key.name, place));
     }
     if (const std::string allowed = key.limit ? key.limit(target) : ""; !allowed.empty())
-      place.child(key.name).refuse("is " + key.standard(target), allowed);
+      place.child(key.name).refuse("is " + key.standard(target), allowed, place.children(key.others));
   }
   if (found == json.size()) return;
   for (const auto& [name, value] : json.items()) {
     bool known = false;
     for (const Key<T>& key : table) known |= key.name == name && (!key.applies || key.applies(target));
-    if (!known) place.child(name).refuse("unknown key", "allowed here: " + acceptedKeys(table, target));
+    if (!known)
+      place.child(name).refuse("unknown key", "allowed here: " + acceptedKeys(table, target),
+                               choicesAbout(table, name, place));
   }
 }
 

@@ -86,7 +86,7 @@ double depthIn(const Elements& a, const Elements& b) {
 void refuseDeep(const Scene& scene, const std::string& one, const std::string& other, double depth,
                 double radius) {
   if (depth <= kTouching * radius) return;
-  throw InputError(scene.file, one,
+  throw InputError(scene.blamed(one, {other}), one,
                    "starts " + metres(depth) + " inside of " + other + ", must be at most " +
                        metres(kTouching * radius) + " (a quarter of the elements' radius)");
 }
@@ -109,8 +109,8 @@ void checkOverlaps(const Scene& scene, const StartingBodies& bodies, const LogFu
     for (std::size_t k = 0; k < bodies.statics.size(); ++k) {
       const double depth = depthIn(*bodies.statics[k], object, proxies);
       if (!log || depth <= kStanding * object.radius) continue;
-      log(LogLevel::Warning, scene.file + ": " + name + ": starts " + metres(depth) + " inside of " +
-                                 place("statics", k) +
+      log(LogLevel::Warning, scene.blamed(name, {place("statics", k)}) + ": " + name + ": starts " +
+                                 metres(depth) + " inside of " + place("statics", k) +
                                  ": its elements in there may be thrown out; lift it by as much, unless it "
                                  "is a foundation");
     }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "demo/input_error.h"
 #include "demo/scene_keys.h"
 
 namespace rubble::demo {
@@ -25,20 +26,41 @@ std::string joined(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
 
-// The entry `part` of an object or list, made when it is new (a list grows by one at most).
-Json& entry(Json& parent, const std::string& part, const Place& place) {
+// "0 to 2, or 3 for a new entry given whole".
+std::string indices(std::size_t count, bool canGrow) {
+  std::string text;
+  if (count > 0) text = count == 1 ? "0" : "0 to " + std::to_string(count - 1);
+  if (canGrow) text += (text.empty() ? "" : ", or ") + std::to_string(count) + " for a new entry given whole";
+  return text;
+}
+
+// The entry of a list. `isNew` may be the one behind the last; three numbers have no fourth.
+Json& entryOfList(Json& list, const std::string& index, const Place& place, bool isNew) {
+  const std::size_t count = list.size();
+  const bool canGrow = count == 0 || !list.front().is_number();
+  for (std::size_t i = 0; i < count; ++i)
+    if (index == std::to_string(i)) return list[i];
+  if (isNew && canGrow && index == std::to_string(count)) return list.emplace_back(nullptr);
+  place.child(index).refuse("unknown index", "allowed: " + indices(count, canGrow));
+}
+
+// The entry `part` of an object or list, made when it is new; in a list, where `isNew` allows it.
+Json& entry(Json& parent, const std::string& part, const Place& place, bool isNew) {
   if (parent.is_object() || parent.is_null()) return parent[part];
   if (!parent.is_array()) place.refuse("is " + shown(parent), "has no keys of its own");
-  const std::size_t count = parent.size();
-  for (std::size_t i = 0; i <= count; ++i)
-    if (part == std::to_string(i)) return i == count ? parent.emplace_back(nullptr) : parent[i];
-  place.child(part).refuse("there is no such entry", "allowed: 0 to " + std::to_string(count));
+  return entryOfList(parent, part, place, isNew);
+}
+
+// Of the value and all that was below it.
+void replaceOrigin(Origins& origins, const std::string& path, const std::string& source) {
+  std::erase_if(origins, [&](const auto& origin) { return origin.first.starts_with(path + "."); });
+  origins[path] = source;
 }
 
 // Objects merge, null takes a key away, everything else replaces (RFC 7386).
 void merge(Document& document, Json& target, const Json& value, const std::string& path,
            const std::string& source) {
-  if (!value.is_object() || !target.is_object()) document.origins[path] = source;
+  if (!value.is_object() || !target.is_object()) replaceOrigin(document.origins, path, source);
   if (!value.is_object()) {
     target = value;
     return;
@@ -47,6 +69,7 @@ void merge(Document& document, Json& target, const Json& value, const std::strin
   for (const auto& [name, child] : value.items()) {
     if (child.is_null()) {
       target.erase(name);
+      replaceOrigin(document.origins, joined(path, name), source);
     } else {
       merge(document, target[name], child, joined(path, name), source);
     }
@@ -61,21 +84,22 @@ bool hasEmptyName(const std::string& path) {
 void mergeAt(Document& document, const std::string& path, const Json& value, const std::string& source) {
   if (hasEmptyName(path))
     throw InputError(source, path, "has an empty name in it, must be names joined by single dots");
-  document.origins[path] = source;
   Json* target = &document.json;
   Json* parent = nullptr;
   const Origins origins = {{"", source}};  // errors on the way are this source's
   std::string part, last, done;
   std::istringstream parts(path + ".");
   while (std::getline(parts, part, '.')) {
+    const bool isLast = joined(done, part) == path;
     parent = target;
-    target = &entry(*target, part, {&origins, done});
+    target = &entry(*target, part, {&origins, done}, isLast && !value.is_null());
     done = joined(done, part);
     if (target->is_null()) document.origins[done] = source;  // made on the way
     last = part;
   }
   if (value.is_null() && parent->is_object()) {
     parent->erase(last);
+    replaceOrigin(document.origins, path, source);
   } else {
     merge(document, *target, value, path, source);
   }
@@ -114,13 +138,47 @@ bool limitDepth(int depth, Json::parse_event_t, Json&) {
   return true;
 }
 
+// Takes everything, and keeps where the first number stands that no double holds.
+class FindNumberOutOfRange : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t end, const std::string& token, const Json::exception&) override {
+    first = end - token.size() + 1;
+    number = token;
+    return false;
+  }
+
+  std::size_t first = 0;  // byte, from 1
+  std::string number;
+};
+
+[[noreturn]] void refuseNumber(const std::string& text, const std::string& name) {
+  constexpr std::size_t kLongest = 60;  // characters that still help to find it
+  FindNumberOutOfRange found;
+  Json::sax_parse(text, &found);
+  std::string number = found.number.substr(0, kLongest);
+  if (number.size() < found.number.size()) number += "...";
+  throw InputError(name, lineAndColumn(text, found.first), "is " + number + ", must be within +-1.8e308");
+}
+
 Json parse(const std::string& text, const std::string& name) {
   try {
     return Json::parse(text, limitDepth);
   } catch (const Json::parse_error& error) {
     throw InputError(name, lineAndColumn(text, error.byte), "is not JSON here, must be an object {...}");
-  } catch (const Json::exception&) {
-    throw InputError(name, "", "holds a number out of range, must be within +-1.8e308");
+  } catch (const Json::out_of_range&) {
+    refuseNumber(text, name);
   } catch (const std::length_error& error) {
     throw InputError(name, "", std::string(error.what()) + ", must be at most 32 levels");
   }
@@ -175,7 +233,8 @@ void checkGravity(const Scene& scene, const Place& place) {
   const Eigen::Vector3d& g = scene.gravity;
   if (scene.dust && (g.x() != 0 || g.z() != 0 || !limits::kDustGravity.hold(-g.y())))
     place.refuse("is [" + shown(g.x()) + ", " + shown(g.y()) + ", " + shown(g.z()) + "]",
-                 "must be [0, -g, 0] with g " + limits::kDustGravity.text() + " in a scene with dust");
+                 "must be [0, -g, 0] with g " + limits::kDustGravity.text() + " in a scene with dust",
+                 {"dust"});
 }
 
 std::filesystem::path dataFolder(const char* folder, const char* builtIn) {
@@ -224,7 +283,13 @@ Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& over
   scene.file = file.string();
   readObject(sceneKeys(), scene, document.json, {&document.origins, ""});
   checkGravity(scene, {&document.origins, "gravity"});
+  scene.origins = std::move(document.origins);
   return scene;
+}
+
+std::string Scene::blamed(const std::string& path, std::vector<std::string> others) const {
+  others.insert(others.begin(), path);
+  return Place{&origins, path}.blamed(others);
 }
 
 }  // namespace rubble::demo

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/place.h"
 #include "rubble/material.h"
 
 namespace rubble::demo {
@@ -101,6 +102,11 @@ struct Scene {
   SceneLight light;
   std::optional<SceneDust> dust;      ///< absent: no grid, no thread, no memory
   std::optional<SceneDebris> debris;  ///< absent: crushed elements leave no particles
+  Origins origins = {};               ///< who gave which value
+
+  /// Who gave what stands at `path`, as errors begin: a file, and the options that gave a value there, below
+  /// or at `others`.
+  std::string blamed(const std::string& path, std::vector<std::string> others = {}) const;
 };
 
 /// One change of the scene from the command line: `objects.0.radius` and a JSON value or a bare word.

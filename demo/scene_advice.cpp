@@ -40,9 +40,10 @@ void adviseOnObject(const Scene& scene, std::size_t index, const Eigen::AlignedB
   const Eigen::AlignedBox3d roomy(box.min() - cell / 2, box.max() + cell / 2);
   if (roomy.contains(object)) return;
   const std::string where = box.intersects(object) ? "reaches out of" : "is outside of";
-  log(LogLevel::Warning, scene.file + ": objects." + std::to_string(index) + ": " + text(object.min()) +
-                             " to " + text(object.max()) + " m " + where + " the dust's box, " +
-                             text(box.min()) + " to " + text(box.max()) +
+  const std::string name = "objects." + std::to_string(index);
+  log(LogLevel::Warning, scene.blamed(name, {"dust"}) + ": " + name + ": " + text(object.min()) + " to " +
+                             text(object.max()) + " m " + where + " the dust's box, " + text(box.min()) +
+                             " to " + text(box.max()) +
                              " m: dust from there is lost at once; change dust.min and dust.max, or move the "
                              "object");
 }
@@ -54,7 +55,8 @@ void adviseOnFloor(const Scene& scene, const Eigen::Vector3d& cell, const LogFun
     if (!level) continue;
     const double height = body.position.y() + body.offset;
     if (std::abs(height - scene.dust->min.y()) <= cell.y() / 2) return;
-    log(LogLevel::Warning, scene.file + ": dust.min: its y is " + numberText(scene.dust->min.y()) +
+    log(LogLevel::Warning, scene.blamed("dust.min", {"statics"}) + ": dust.min: its y is " +
+                               numberText(scene.dust->min.y()) +
                                " m and is ground to the dust, but the ground is at " + numberText(height) +
                                " m: dust will lie at the wrong height");
     return;

@@ -63,11 +63,13 @@ const Table<Material>& materialKeys() {
                        "E of the pore springs"),
       number<Material>("tensile_strength", &Material::tensileStrength, limits::kStrength, "Pa", "f_t"),
       number<Material>("compressive_strength", &Material::compressiveStrength, limits::kStrength, "Pa", "f_c")
-          .must([](const Material& m) {
-            return m.compressiveStrength >= m.tensileStrength
-                       ? std::string()
-                       : "must be at least tensile_strength, " + shown(m.tensileStrength);
-          }),
+          .must(
+              [](const Material& m) {
+                return m.compressiveStrength >= m.tensileStrength
+                           ? std::string()
+                           : "must be at least tensile_strength, " + shown(m.tensileStrength);
+              },
+              {"tensile_strength", "preset"}),
       number<Material>("breaking_angle", &Material::breakingAngle, limits::kBreakingAngle, "rad",
                        "relative rotation at which a spring breaks under the criterion `stretch`"),
       number<Material>("stretch_threshold", &Material::stretchThreshold, limits::kStretchThreshold, "",
@@ -170,6 +172,7 @@ Key<SceneObject> file(std::string name, std::filesystem::path SceneObject::*memb
                     std::filesystem::path(place.source()).parent_path() / json.get<std::string>();
               },
           .standard = [](const SceneObject&) { return std::string("none"); },
+          .isChoice = true,
           .listNested =
               [=](std::vector<std::string>& lines, const SceneObject& target, const std::string& path) {
                 const std::filesystem::path& named = target.*member;
@@ -198,11 +201,13 @@ const Table<SceneObject>& objectKeys() {
           number<SceneObject>("radius", &SceneObject::radius, limits::kElementRadius, "m",
                               "of the elements; 0 is chosen from `fill`")
               .only("boxes and meshes", isCookedHere)
-              .must([](const SceneObject& o) {
-                return !isBox(o) || o.radius <= o.size.minCoeff() / 2
-                           ? std::string()
-                           : "must be at most " + thickest(o) + ", half the smallest edge of the box";
-              }),
+              .must(
+                  [](const SceneObject& o) {
+                    return !isBox(o) || o.radius <= o.size.minCoeff() / 2
+                               ? std::string()
+                               : "must be at most " + thickest(o) + ", half the smallest edge of the box";
+                  },
+                  {"size", "shape"}),
           number<SceneObject>("fill", &SceneObject::fill, limits::kFill, "",
                               "share of the solid that the spheres fill when `radius` is 0")
               .only("boxes and meshes", isCookedHere),
@@ -326,10 +331,12 @@ const Table<SceneCamera>& cameraKeys() {
   static const Table<SceneCamera> table = {
       vector<SceneCamera>("eye", &SceneCamera::eye, limits::kPosition, "m", "where the camera stands"),
       vector<SceneCamera>("target", &SceneCamera::target, limits::kPosition, "m", "what it looks at")
-          .must([](const SceneCamera& c) {
-            const bool differ = c.target.cast<float>() != c.eye.cast<float>();
-            return differ ? std::string() : "must differ from camera.eye";
-          }),
+          .must(
+              [](const SceneCamera& c) {
+                const bool differ = c.target.cast<float>() != c.eye.cast<float>();
+                return differ ? std::string() : "must differ from camera.eye";
+              },
+              {"eye"}),
       number<SceneCamera>("field_of_view_degrees", &SceneCamera::fieldOfViewDegrees, limits::kFieldOfView,
                           "degrees", "vertical"),
   };
@@ -375,7 +382,8 @@ const Table<SceneDust>& dustKeys() {
           }),
       vector<SceneDust>("min", &SceneDust::min, limits::kPosition, "m",
                         "lower corner of the grid's box; its floor is ground"),
-      vector<SceneDust>("max", &SceneDust::max, limits::kPosition, "m", "upper corner").must(dustBox),
+      vector<SceneDust>("max", &SceneDust::max, limits::kPosition, "m", "upper corner")
+          .must(dustBox, {"min"}),
       number<SceneDust>("opacity", &SceneDust::opacity, limits::kDustOpacity, "",
                         "times the extinction of real dust, for the eye"),
       number<SceneDust>("vorticity", &SceneDust::vorticity, limits::kVorticity, "",
@@ -404,9 +412,13 @@ const Table<Scene>& allKeys() {
       vector<Scene>("gravity", &Scene::gravity, limits::kGravity, "m/s^2", "y is up"),
       number<Scene>("bullet_rate", &Scene::bulletRate, kBulletRate, "Hz", "Bullet's ticks"),
       whole<Scene>("frames", &Scene::frames, kFrames, "", "length of the run"),
-      number<Scene>("fps", &Scene::fps, kFps, "1/s", "frames in a second").must([](const Scene& s) {
-        return s.fps <= s.bulletRate ? std::string() : "must be at most bullet_rate, " + shown(s.bulletRate);
-      }),
+      number<Scene>("fps", &Scene::fps, kFps, "1/s", "frames in a second")
+          .must(
+              [](const Scene& s) {
+                return s.fps <= s.bulletRate ? std::string()
+                                             : "must be at most bullet_rate, " + shown(s.bulletRate);
+              },
+              {"bullet_rate"}),
       whole<Scene>("seed", &Scene::seed, kSeed, "", "of the packing and of the debris' sizes"),
       word<Scene, Precision>("precision", &Scene::precision,
                              {{"float", Precision::Float}, {"double", Precision::Double}},

@@ -39,6 +39,10 @@ double shortening(const Material& m) {
 
 }  // namespace
 
+std::vector<std::string> whatSubstepsDependOn() {
+  return {"max_substeps_per_frame", "substep_safety"};
+}
+
 void requireSubsteps(const Scene& scene, std::size_t object, double volume, std::size_t elements) {
   if (elements < kFewest || !(volume > 0)) return;
   const SceneObject& o = scene.objects[object];
@@ -53,6 +57,7 @@ void requireSubsteps(const Scene& scene, std::size_t object, double volume, std:
   std::string text = "needs more than " + rounded(atLeast, std::floor) +
                      " substeps in 1/60 s, max_substeps_per_frame is " +
                      std::to_string(scene.maxSubstepsPerFrame);
+  const std::string name = "objects." + std::to_string(object);
   std::string would;
   const auto add = [&](const std::string& remedy) { would += (would.empty() ? ": " : " or ") + remedy; };
   if (limits::kMaxSubstepsPerFrame.hold(std::ceil(1.1 * enough))) add(rounded(enough, std::ceil));
@@ -60,7 +65,7 @@ void requireSubsteps(const Scene& scene, std::size_t object, double volume, std:
     add("a youngs_modulus of " + rounded(soft, std::floor));
   if (const double fewer = std::floor(double(elements) * ratio * ratio * ratio); fewer >= kFewest)
     add(rounded(fewer, std::floor) + " elements");
-  throw InputError(scene.file, "objects." + std::to_string(object),
+  throw InputError(scene.blamed(name, whatSubstepsDependOn()), name,
                    text + (would.empty() ? ", must need less" : would + " would do"));
 }
 

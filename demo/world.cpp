@@ -101,13 +101,16 @@ Asset cookObject(const SceneObject& object, Uncooked uncooked, std::uint64_t see
   }
 }
 
-// Does `work` on one object of the scene; what the library refuses there becomes the scene's error.
+// Does `work` on one object of the scene; what the library refuses there becomes the scene's error, in which
+// the values `others` may have a part.
 template <class Work>
-void refuseAt(const Scene& scene, std::size_t object, const Work& work) {
+void refuseAt(const Scene& scene, std::size_t object, const Work& work,
+              const std::vector<std::string>& others = {}) {
   try {
     work();
   } catch (const Error& error) {
-    throw InputError(scene.file, "objects." + std::to_string(object), inWordsOfTheScene(error.what()));
+    const std::string name = "objects." + std::to_string(object);
+    throw InputError(scene.blamed(name, others), name, inWordsOfTheScene(error.what()));
   }
 }
 
@@ -151,7 +154,8 @@ World::World(const Scene& scene, const Assets& assets, const LogFunction& log) :
     starting.objects.push_back({assets[i], bullet::toEigen(placed(scene.objects[i]))});
   checkOverlaps(scene, starting, log);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    refuseAt(scene, i, [&] { addObject(scene.objects[i], assets[i]); });
+    refuseAt(
+        scene, i, [&] { addObject(scene.objects[i], assets[i]); }, whatSubstepsDependOn());
   }
 }
 

@@ -100,7 +100,9 @@ TEST_F(Program, TooManySubstepsAreRefusedBeforeTheCookWithWhatWouldDo) {
   EXPECT_EQ(run(command + " --set objects.0.elements=" + number("youngs_modulus", " elements")).exitCode, 0);
   // So near to the limit that the elements must be known, and then it is exact.
   const ChildResult near = run(command + " --set max_substeps_per_frame=100");
-  expectError(near, 2, "cube.json: objects.0: material concrete_soft: stable substep is ");
+  expectError(
+      near, 2,
+      "cube.json with --set max_substeps_per_frame: objects.0: material concrete_soft: stable substep is ");
   EXPECT_NE(near.error.find("max_substeps_per_frame is 100: "), std::string::npos) << near.error;
   EXPECT_NE(near.error.find(" would do, for contacts too, or a youngs_modulus of "), std::string::npos)
       << near.error;
@@ -111,6 +113,19 @@ TEST_F(Program, TooManySubstepsAreRefusedBeforeTheCookWithWhatWouldDo) {
   m_folder.write("asset.json",
                  R"({"max_substeps_per_frame": 3, "objects": [{"asset": "box.rubble-asset"}]})");
   expectError(run("info asset.json"), 2, "asset.json: objects.0: needs more than ");
+}
+
+// What is found out after the scene has been read blames the option that gave the value, not the file alone.
+TEST_F(Program, AnOptionAtFaultIsNamedWhateverFindsIt) {
+  m_folder.write("cube.json", R"({"frames": 1, "objects": [{"size": [1, 1, 1], "elements": 100}],
+      "impactors": [{"shape": "sphere", "radius": 0.1, "mass": 1, "position": [0, 2, 0]}]})");
+  const std::string command = "run cube.json --no-render --frames 1 --set ";
+  expectError(run(command + "objects.0.radius=0.4"), 2, "cube.json with --set objects.0.radius: objects.0: ");
+  expectError(run(command + "max_substeps_per_frame=2"), 2,
+              "cube.json with --set max_substeps_per_frame: objects.0: needs more than ");
+  expectError(run(command + "impactors.0.position=[0,0.5,0] --set objects.0.position=[0,0.1,0]"), 2,
+              "cube.json with --set impactors.0.position, --set objects.0.position: impactors.0: starts ");
+  expectError(run(command + "dust.backend=gl"), 2, "--set: dust.backend: ");
 }
 
 TEST_F(Program, InfoSaysWhatASceneNeeds) {

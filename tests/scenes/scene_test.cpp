@@ -151,8 +151,11 @@ TEST_F(SceneFile, NotANumberIsRefused) {
             "scene.json: line 1, column 9: is not JSON here, must be an object {...}");
   EXPECT_EQ(refusal("{}", {{"fps", "nan"}}), "--set: fps: is \"nan\", must be a number 1 to 10000");
   EXPECT_EQ(refusal("{}", {{"fps", "1e999"}}), "--set: fps: is \"1e999\", must be a number 1 to 10000");
-  EXPECT_EQ(refusal(R"({"fps": 1e999})"),
-            "scene.json: holds a number out of range, must be within +-1.8e308");
+  EXPECT_EQ(refusal(R"({"fps": 1e999})"), "scene.json: line 1, column 9: is 1e999, must be within +-1.8e308");
+  EXPECT_EQ(refusal("{\n  \"gravity\": [0,\n    -1e400, 0]\n}"),
+            "scene.json: line 3, column 5: is -1e400, must be within +-1.8e308");
+  EXPECT_EQ(refusal("{\"fps\": 1" + std::string(400, '0') + "}"),
+            "scene.json: line 1, column 9: is 1" + std::string(59, '0') + "..., must be within +-1.8e308");
   EXPECT_EQ(refusal(R"({"gravity": [0, "down", 0]})"),
             "scene.json: gravity.1: is \"down\", must be a number -1000 to 1000");
 }
@@ -216,13 +219,65 @@ TEST_F(SceneFile, CirclesOfExtendsAreRefused) {
             "scene.json: extends: goes in a circle, must end at a whole scene");
 }
 
-TEST_F(SceneFile, PathsThroughValuesAndBeyondListsAreRefused) {
+TEST_F(SceneFile, PathsThroughValuesAreRefused) {
   EXPECT_EQ(refusal(R"({"frames": 5})", {{"frames.first", "1"}}),
             "--set: frames: is 5, has no keys of its own");
-  EXPECT_EQ(refusal(R"({"objects": []})", {{"objects.2.radius", "1"}}),
-            "--set: objects.2: there is no such entry, allowed: 0 to 0");
   EXPECT_THROW(demo::parseOverride("frames"), InputError);
   EXPECT_THROW(demo::parseOverride("=5"), InputError);
+}
+
+TEST_F(SceneFile, AnIndexBehindTheLastIsRefused) {
+  const std::string one = R"({"objects": [{"size": [1, 1, 1]}]})";
+  const std::string unknown = ": unknown index, allowed: ";
+  const std::string known = unknown + "0, or 1 for a new entry given whole";
+  for (const char* index : {"9", "1", "01", "-1", "x"}) {
+    const std::string place = std::string("objects.") + index;
+    EXPECT_EQ(refusal(one, {{place + ".size", "[1,1,1]"}}), "--set: " + place + known);
+    m_folder.write("base.json", one);
+    EXPECT_EQ(refusal("{\"extends\": \"base\", \"" + place + ".size\": [1, 1, 1]}"),
+              "scene.json: " + place + known);
+  }
+  EXPECT_EQ(refusal(one, {{"objects.1", "null"}}), "--set: objects.1" + known);
+  EXPECT_EQ(load(one, {{"objects.1", R"({"size": [1, 2, 3]})"}}).objects.size(), 2u);
+  EXPECT_EQ(refusal(R"({"objects": []})", {{"objects.2.radius", "1"}}),
+            "--set: objects.2" + unknown + "0 for a new entry given whole");
+  EXPECT_EQ(refusal(one, {{"objects.0.size.3", "1"}}), "--set: objects.0.size.3" + unknown + "0 to 2");
+  const std::string none = ": unknown index, there is no list yet: give ";
+  EXPECT_EQ(refusal(one, {{"impactors.0.mass", "5"}}),
+            "--set: impactors.0" + none + "impactors whole, [...]");
+  EXPECT_EQ(refusal("{}", {{"gravity.1", "-3"}}), "--set: gravity.1" + none + "gravity whole, [...]");
+}
+
+// Two values that do not fit: the option is named beside the file that gave the other.
+TEST_F(SceneFile, AnOptionAtFaultIsNamedBesideTheFile) {
+  const std::string cube = R"({"objects": [{"size": [1, 1, 1], "radius": 0.3,
+      "material": {"compressive_strength": 3e6}}], "camera": {"target": [1, 2, 3]},
+      "gravity": [0, 0, -9], "dust": {"max": [1, 1, 1]}, "fps": 60})";
+  const auto with = [&](const std::string& path, const std::string& value) {
+    return refusal(cube, {{"dust", "null"}, {path, value}, {"frames", "9", "--frames"}});
+  };
+  EXPECT_EQ(with("bullet_rate", "30"),
+            "scene.json with --set bullet_rate: fps: is 60, must be at most bullet_rate, 30");
+  EXPECT_EQ(with("objects.0.size", "[1, 1, 0.1]"),
+            "scene.json with --set objects.0.size: objects.0.radius: is 0.3, must be at most 0.05, half the "
+            "smallest edge of the box");
+  EXPECT_EQ(with("objects.0.size.2", "0.1").find("scene.json with --set objects.0.size.2: objects.0.radius"),
+            0u);
+  EXPECT_EQ(with("objects.0.material.tensile_strength", "5e6")
+                .find("scene.json with --set objects.0.material.tensile_strength: objects.0.material.comp"),
+            0u);
+  EXPECT_EQ(with("camera.eye", "[1, 2, 3]"),
+            "scene.json with --set camera.eye: camera.target: is [1, 2, 3], must differ from camera.eye");
+  EXPECT_EQ(with("dust", "{}").find("scene.json with --set dust: gravity: is [0, 0, -9]"), 0u);
+  EXPECT_EQ(
+      with("objects.0.mesh", "ball.obj")
+          .find("scene.json with --set objects.0.mesh: objects.0.size: unknown key, allowed here: mesh"),
+      0u);
+  // It has no part in these.
+  EXPECT_EQ(with("sleep", "false"), "accepted");
+  EXPECT_EQ(refusal(R"({"precise": 1})", {{"precision", "double"}}).find("scene.json: precise: unknown"), 0u);
+  EXPECT_EQ(refusal(R"({"dust": {"drag": -1}})", {{"dust", R"({"opacity": 2})"}}),
+            "scene.json: dust.drag: is -1, must be 0 to 1000");
 }
 
 // Where a setting made the whole object, the setting is at fault and not the file.
@@ -230,7 +285,7 @@ TEST_F(SceneFile, WhatASettingMakesIsTheSettings) {
   const std::string scene = R"({"objects": []})";
   EXPECT_EQ(refusal(scene, {{"debris.budgets.first", "1"}}).find("--set: debris.budgets: unknown key"), 0u);
   EXPECT_EQ(refusal(scene, {{"impactor.0.velocity", "[0,0,1]"}}).find("--set: impactor: unknown key"), 0u);
-  EXPECT_EQ(refusal(scene, {{"objects.0.elements", "5"}}).find("--set: objects.0.size: "), 0u);
+  EXPECT_EQ(refusal(scene, {{"objects.0", R"({"elements": 5})"}}).find("--set: objects.0.size: "), 0u);
   EXPECT_EQ(refusal(scene, {{"frames..first", "5"}}),
             "--set: frames..first: has an empty name in it, must be names joined by single dots");
   EXPECT_EQ(refusal(scene, {{".", "5"}}),
