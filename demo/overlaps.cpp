@@ -1,11 +1,15 @@
 // Depths are those of the contacts: elements are spheres to one another, and bodies of Bullet are what the
-// plugin makes of them. The spheres lie inside of the solid, so no overlap is told that is none.
+// plugin makes of them; among themselves Bullet measures. The spheres lie inside of the solid, so no overlap
+// is told that is none.
 #include "demo/overlaps.h"
+
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <string>
 
+#include "bullet/convert.h"
 #include "bullet/rigid_proxies.h"
 #include "demo/input_error.h"
 #include "edem/grid.h"
@@ -16,6 +20,7 @@ namespace {
 // Places are rounded, and spheres of a packing may protrude by a hundredth.
 constexpr double kTouching = 0.25;  // [radius of an element]
 constexpr double kStanding = 1;     // [radius of an element] in a static body
+constexpr double kBodies = 0.1;     // [smallest half extent] of bodies of Bullet in one another
 
 std::string place(const char* list, std::size_t index) {
   return std::string(list) + "." + std::to_string(index);
@@ -83,6 +88,81 @@ double depthIn(const Elements& a, const Elements& b) {
   return reach - nearest;
 }
 
+// Deepest contact [m].
+struct Deepest : btCollisionWorld::ContactResultCallback {
+  btScalar addSingleResult(btManifoldPoint& contact, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    depth = std::max(depth, -double(contact.getDistance()));
+    return 0;
+  }
+  double depth = 0;
+};
+
+// What Bullet puts around the corners of a hull [m]; other shapes have their margin inside.
+double around(const btRigidBody& body) {
+  const btCollisionShape& shape = *body.getCollisionShape();
+  return shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE ? double(shape.getMargin()) : 0;
+}
+
+// How far one of two bodies of Bullet is from being outside of the other [m].
+double depthIn(btRigidBody& a, btRigidBody& b, btDynamicsWorld& world) {
+  Deepest deepest;
+  world.contactPairTest(&a, &b, deepest);
+  return std::max(0.0, deepest.depth - around(a) - around(b));
+}
+
+Eigen::AlignedBox3d boundsOf(const btRigidBody& body) {
+  btVector3 low, high;
+  body.getAabb(low, high);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(around(body));
+  return {bullet::toEigen(low) + margin, bullet::toEigen(high) - margin};
+}
+
+double smallestHalf(const btRigidBody& body) {
+  btVector3 low, high;
+  body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 size = high - low;
+  return double(size[size.minAxis()]) / 2 - around(body);
+}
+
+// What makes an end of it: lifting where that alone does, as over a floor.
+std::string remedy(const Eigen::AlignedBox3d& bounds, const btRigidBody& solid, double depth) {
+  constexpr double kRounding = 1.01;
+  const btCollisionShape& shape = *solid.getCollisionShape();
+  bool isBelow = false;
+  if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    const btVector3 normal =
+        solid.getWorldTransform().getBasis() * static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal();
+    isBelow = double(normal.y()) * kRounding >= 1;
+  } else {
+    isBelow = boundsOf(solid).max().y() - bounds.min().y() <= kRounding * depth;
+  }
+  return isBelow ? "lift it by as much" : "move one of them";
+}
+
+void warnOfBodies(const Scene& scene, const StartingBodies& bodies, const LogFunction& log) {
+  if (!log) return;
+  for (std::size_t i = 0; i < bodies.impactors.size(); ++i) {
+    btRigidBody& impactor = *bodies.impactors[i];
+    const std::string name = place("impactors", i);
+    const auto warn = [&](const std::string& other, double depth, const std::string& then) {
+      log(LogLevel::Warning, scene.blamed(name, {other}) + ": " + name + ": starts " + metres(depth) +
+                                 " inside of " + other + ": " + then);
+    };
+    for (std::size_t k = 0; k < bodies.statics.size(); ++k) {
+      const double depth = depthIn(impactor, *bodies.statics[k], bodies.world);
+      if (depth > kBodies * smallestHalf(impactor))
+        warn(place("statics", k), depth,
+             "Bullet pushes it out; " + remedy(boundsOf(impactor), *bodies.statics[k], depth));
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      const double depth = depthIn(impactor, *bodies.impactors[k], bodies.world);
+      if (depth > kBodies * std::min(smallestHalf(impactor), smallestHalf(*bodies.impactors[k])))
+        warn(place("impactors", k), depth, "Bullet pushes them apart; move one of them");
+    }
+  }
+}
+
 void refuseDeep(const Scene& scene, const std::string& one, const std::string& other, double depth,
                 double radius) {
   if (depth <= kTouching * radius) return;
@@ -109,12 +189,13 @@ void checkOverlaps(const Scene& scene, const StartingBodies& bodies, const LogFu
     for (std::size_t k = 0; k < bodies.statics.size(); ++k) {
       const double depth = depthIn(*bodies.statics[k], object, proxies);
       if (!log || depth <= kStanding * object.radius) continue;
-      log(LogLevel::Warning, scene.blamed(name, {place("statics", k)}) + ": " + name + ": starts " +
-                                 metres(depth) + " inside of " + place("statics", k) +
-                                 ": its elements in there may be thrown out; lift it by as much, unless it "
-                                 "is a foundation");
+      log(LogLevel::Warning,
+          scene.blamed(name, {place("statics", k)}) + ": " + name + ": starts " + metres(depth) +
+              " inside of " + place("statics", k) + ": its elements in there may be thrown out; " +
+              remedy(object.bounds, *bodies.statics[k], depth) + ", unless it is a foundation");
     }
   }
+  warnOfBodies(scene, bodies, log);
 }
 
 }  // namespace rubble::demo

@@ -149,7 +149,7 @@ World::World(const Scene& scene, const Assets& assets, const LogFunction& log) :
   adviseOnDust(scene, bounds, log);
   for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
   for (const SceneBody& body : scene.impactors) addImpactor(body);
-  StartingBodies starting{.objects = {}, .impactors = m_impactors, .statics = m_statics};
+  StartingBodies starting{.objects = {}, .impactors = m_impactors, .statics = m_statics, .world = *m_world};
   for (std::size_t i = 0; i < assets.size(); ++i)
     starting.objects.push_back({assets[i], bullet::toEigen(placed(scene.objects[i]))});
   checkOverlaps(scene, starting, log);
