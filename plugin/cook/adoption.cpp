@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "cook/groups.h"
 #include "cook/site_pieces.h"
 
 namespace rubble::cooking {
@@ -15,12 +16,13 @@ class Adoption {
  public:
   explicit Adoption(RestrictedVoronoi& diagram) : m_diagram(diagram), m_pieces(findSitePieces(diagram)) {}
 
-  std::size_t run() {
-    if (m_pieces.foreign.empty()) return 0;
+  void run() {
+    if (m_pieces.foreign.empty()) return;
     measureContacts();
-    const std::size_t orphans = choose();
+    choose();
+    listEmptyParts();
+    const std::size_t orphans = keepOrphans();
     if (orphans < m_pieces.foreign.size()) rebuild();
-    return orphans;
   }
 
  private:
@@ -54,7 +56,7 @@ class Adoption {
 
   // The largest common face first, in rounds: a piece that touches only pieces without a home waits for
   // theirs.
-  std::size_t choose() {
+  void choose() {
     m_owner.assign(m_pieces.foreign.size(), kNoElement);
     for (bool hasChanged = true; hasChanged;) {
       hasChanged = false;
@@ -74,6 +76,27 @@ class Adoption {
         hasChanged = true;
       }
     }
+  }
+
+  // Pieces without a home that touch are one part of the solid.
+  void listEmptyParts() {
+    Groups parts(m_owner.size());
+    for (const Contact& contact : m_contacts)
+      if (contact.ofThat != kOwn) parts.join(contact.piece - 1, contact.ofThat - 1);
+    std::map<std::uint32_t, std::vector<SurfacePlace>> places;
+    for (std::size_t p = 0; p < m_diagram.surface.polygons.size(); ++p) {
+      const std::uint32_t piece = m_pieces.polygons[p];
+      if (piece == kOwn || m_owner[piece - 1] != kNoElement) continue;
+      const SurfacePolygon& polygon = m_diagram.surface.polygons[p];
+      m_diagram.visitPolygon(polygon, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        places[parts.of(piece - 1)].push_back(
+            {(m_diagram.vertices[a] + m_diagram.vertices[b] + m_diagram.vertices[c]) / 3, polygon.triangle});
+      });
+    }
+    for (auto& [part, list] : places) m_diagram.emptyParts.push_back(std::move(list));
+  }
+
+  std::size_t keepOrphans() {
     std::size_t orphans = 0;
     for (std::size_t f = 0; f < m_owner.size(); ++f) {
       if (m_owner[f] != kNoElement) continue;
@@ -94,6 +117,7 @@ class Adoption {
     }
     rebuildCaps();
     renameVertices();
+    dropUnusedVertices();
     m_diagram.listItems();
   }
 
@@ -154,6 +178,27 @@ class Adoption {
       std::fill(std::unique(sites.begin(), sites.end()), sites.end(), kNoElement);
     }
   }
+
+  // Those that lay on vanished faces alone.
+  void dropUnusedVertices() {
+    std::vector<std::uint32_t> number(m_diagram.vertices.size(), 0);
+    for (const std::uint32_t v : m_diagram.surface.vertices) number[v] = 1;
+    for (const auto& triangle : m_diagram.caps.triangles)
+      for (const std::uint32_t v : triangle) number[v] = 1;
+    std::uint32_t used = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] == 0) continue;
+      m_diagram.vertices[used] = m_diagram.vertices[v];
+      m_diagram.vertexSites[used] = m_diagram.vertexSites[v];
+      number[v] = used++;
+    }
+    m_diagram.vertices.resize(used);
+    m_diagram.vertexSites.resize(used);
+    for (std::uint32_t& v : m_diagram.surface.vertices) v = number[v];
+    for (auto& triangle : m_diagram.caps.triangles)
+      for (std::uint32_t& v : triangle) v = number[v];
+  }
+
   // Of names that were just given, lest they are taken for old ones. Sites count to 1e7.
   static constexpr std::uint32_t kMark = 0x40000000u;
 
@@ -166,8 +211,8 @@ class Adoption {
 
 }  // namespace
 
-std::size_t adoptPieces(RestrictedVoronoi& diagram) {
-  return Adoption(diagram).run();
+void adoptPieces(RestrictedVoronoi& diagram) {
+  Adoption(diagram).run();
 }
 
 }  // namespace rubble::cooking

@@ -7,8 +7,8 @@ namespace rubble::cooking {
 
 /// Gives every piece of a cell that does not hold the cell's site to the cell it shares most face with,
 /// through other such pieces if need be; the faces between them vanish. So each cell is of one piece, and
-/// neighbours still share their vertices. Pieces of a shell of the solid that holds no site at all stay with
-/// their owners; their number is returned.
-std::size_t adoptPieces(RestrictedVoronoi& diagram);
+/// neighbours still share their vertices. Pieces of a part of the solid that holds no site at all stay with
+/// their owners; those parts are listed in the diagram's `emptyParts`.
+void adoptPieces(RestrictedVoronoi& diagram);
 
 }  // namespace rubble::cooking

@@ -8,6 +8,7 @@
 #include "cook/checked_mesh.h"
 #include "cook/elements.h"
 #include "cook/message.h"
+#include "cook/parts.h"
 #include "cook/polyhedron.h"
 #include "cook/random.h"
 #include "cook/restricted_voronoi.h"
@@ -58,7 +59,7 @@ struct CutElements {
   RestrictedVoronoi diagram;
 };
 
-// Elements packed as densely as can be, unless that leaves parts of the solid without.
+// Elements packed as densely as can be, unless that leaves thin parts of the solid without.
 CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, const ProgressFunction& report,
                        const LogFunction& log) {
   report(kProgressPacking, "packing");
@@ -71,10 +72,15 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
         restrictedVoronoi(solid, elements.centres, kJitter * elements.radius, mix(options.seed), log);
     return CutElements{std::move(elements), std::move(diagram)};
   };
+  const auto fillEmptyParts = [&](CutElements cells) {
+    const bool isChanged =
+        !cells.diagram.emptyParts.empty() && packer.fillEmptyParts(cells.diagram, cells.elements);
+    return isChanged ? cut(std::move(cells.elements)) : std::move(cells);
+  };
   CutElements cells = cut(packer.fill());
   const double allowed = kReach * std::cbrt(solid.volume / double(options.elements));
   const double reach = farthestCorner(cells.diagram);
-  if (reach <= allowed) return cells;
+  if (reach <= allowed) return fillEmptyParts(std::move(cells));
 
   CutElements even = cut(packer.fillEvenly());
   const double evenReach = farthestCorner(even.diagram);
@@ -84,7 +90,22 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
         LogLevel::Warning,
         line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, evenReach),
              " m from its element, more than ", allowed, " m"));
-  return cells;
+  return fillEmptyParts(std::move(cells));
+}
+
+// That the springs tie together what is one part of the solid, and nothing else.
+void checkTies(const CheckedMesh& solid, const Asset& asset, const LogFunction& log) {
+  const std::size_t parts = countParts(solid);
+  const std::size_t tied = countTied(asset.elementCount(), asset.springs);
+  if (tied == parts || !log) return;
+  if (tied < parts && asset.elementCount() < parts) {
+    log(LogLevel::Warning, line("the mesh has ", parts, " parts that do not touch and only ",
+                                asset.elementCount(), " elements; ", parts, " and more would do"));
+  } else {
+    log(LogLevel::Warning,
+        line("the mesh has ", parts, " parts that do not touch, but the springs tie the elements to ", tied,
+             "; more elements may do"));
+  }
 }
 
 void measureCells(const RestrictedVoronoi& diagram, Asset& asset) {
@@ -125,6 +146,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   asset.springs = findSprings(diagram, pieces, options.minFaceArea * spacing * spacing);
   if (options.anchorDirection)
     asset.anchors = findAnchors(solid, diagram, pieces, *options.anchorDirection, options.anchorBand);
+  checkTies(solid, asset, log);
   buildCellMeshes(solid, diagram, asset);
   asset.validate();
   report(1, "done");

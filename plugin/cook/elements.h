@@ -10,6 +10,7 @@
 
 #include "cook/checked_mesh.h"
 #include "cook/packing.h"
+#include "cook/restricted_voronoi.h"
 #include "cook/signed_distance.h"
 #include "rubble/error.h"
 
@@ -38,6 +39,9 @@ class Packer {
   /// Starts at equal distances all over the solid, thin parts too. Where elements have no room the radius,
   /// if it was not given, shrinks to half at most; those that still have none protrude.
   Elements fillEvenly() const;
+  /// Moves one element into each part of the solid that the diagram, cut with these elements, lists as
+  /// empty: those with the least cells, but none that is alone in its part. False: there is none to move.
+  bool fillEmptyParts(const RestrictedVoronoi& diagram, Elements& elements) const;
 
  private:
   Elements fillAsTold() const;
@@ -48,6 +52,10 @@ class Packer {
   void requireFit(const Packing& packing, double radius) const;
   std::string whatFits(double radius) const;
   std::string whatFills(double radius) const;
+  Eigen::Vector3d justBelow(const SurfacePlace& surface) const;
+  Room farthestRoom(const std::vector<SurfacePlace>& places, const Elements& elements,
+                    std::uint32_t element) const;
+  void makeApart(double nearest, Elements& elements) const;
   Elements finish(Packing packing, double radius) const;
   void noteShrink(LogLevel level, double radius, Elements& elements) const;
   void noteThinParts(const Packing& packing, Elements& elements) const;

@@ -119,8 +119,7 @@ RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eig
       RestrictedVoronoi result = cut(mesh, jittered(sites, jitter, seed + std::uint64_t(attempt)));
       checkClosed(result);
       checkVolume(result, mesh.volume);
-      if (const std::size_t orphans = adoptPieces(result); orphans > 0 && log)
-        log(LogLevel::Info, "cook: pieces of cells in shells without elements: " + std::to_string(orphans));
+      adoptPieces(result);
       checkClosed(result);
       return result;
     } catch (const Contradiction& contradiction) {

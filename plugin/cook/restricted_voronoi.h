@@ -30,6 +30,11 @@ struct CellLists {
   }
 };
 
+struct SurfacePlace {
+  Eigen::Vector3d place;   ///< [m]
+  std::uint32_t triangle;  ///< of the mesh
+};
+
 struct RestrictedVoronoi {
   std::vector<Eigen::Vector3d> sites;     ///< jittered [m]
   std::vector<Eigen::Vector3d> vertices;  ///< [m]
@@ -39,6 +44,8 @@ struct RestrictedVoronoi {
   Caps caps;
   CellLists polygonsOf;  ///< into surface.polygons
   CellLists capsOf;      ///< into caps.caps
+  /// Places all over the surface of each connected part of the solid that holds no site.
+  std::vector<std::vector<SurfacePlace>> emptyParts;
 
   std::size_t cellCount() const { return sites.size(); }
 

@@ -15,9 +15,18 @@ Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, 
   Eigen::Vector3d place = start;
   Distance here = distance.exact(place);
   const auto climb = [&](const Eigen::Vector3d& to) {
-    const Distance there = distance.exact(to);
+    Eigen::Vector3d next = to;
+    Distance there = distance.exact(next);
     if (there.value >= here.value) return there;
-    place = to;
+    // Not through a thin wall into what is behind it: unless one place lies in a ball about the other that
+    // holds no surface, no farther than the surface is.
+    const double length = (to - place).norm();
+    if (length > std::max(-here.value, -there.value)) {
+      next = place - here.value / length * (to - place);
+      there = distance.exact(next);
+      if (there.value >= here.value) return there;
+    }
+    place = next;
     here = there;
     return there;
   };

@@ -13,7 +13,7 @@ struct Room {
 };
 
 /// Climbs from a place in the solid, away from the surface, until a sphere of this radius [m] fits; in
-/// a wall thinner than that, to its middle.
+/// a wall thinner than that, to its middle. Never leaves the connected part of the solid.
 Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, double radius);
 
 }  // namespace rubble::cooking

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "cook/groups.h"
+
 namespace rubble::cooking {
 namespace {
 
@@ -20,7 +22,7 @@ bool isAnchored(const RestrictedVoronoi& diagram, const SurfacePolygon& polygon,
 
 std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const SitePieces& pieces,
                                      double leastArea) {
-  std::vector<AssetSpring> springs;
+  std::vector<AssetSpring> all;
   for (const Cap& cap : diagram.caps.caps) {
     const Eigen::Vector3d normal = (diagram.sites[cap.second] - diagram.sites[cap.first]).normalized();
     double area = 0;
@@ -34,8 +36,15 @@ std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const Sit
       bent += share;
     }
     if (!cap.isFlat) area = bent.norm();
-    if (area > 0 && area >= leastArea) springs.push_back({cap.first, cap.second, area});
+    if (area > 0) all.push_back({cap.first, cap.second, area});
   }
+  Groups tied(diagram.cellCount());
+  for (const AssetSpring& spring : all)
+    if (spring.area >= leastArea) tied.join(spring.first, spring.second);
+  std::vector<AssetSpring> springs;
+  for (const AssetSpring& spring : all)
+    if (spring.area >= leastArea || tied.of(spring.first) != tied.of(spring.second))
+      springs.push_back(spring);
   return springs;
 }
 

@@ -12,7 +12,8 @@ namespace rubble::cooking {
 
 /// DEVIATION: the paper puts a spring on every Delaunay edge. Even in a box one edge in ten has its Voronoi
 /// face outside, and across a slot such edges tie the sides together; so a spring needs a shared clipped face
-/// of `leastArea` [m^2].
+/// of `leastArea` [m^2]. Elements that would then hang on nothing although the solid goes on, as in a
+/// leg or a sheet much thinner than a spacing, get springs at smaller faces too.
 std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const SitePieces& pieces,
                                      double leastArea);
 
