@@ -28,8 +28,9 @@ constexpr double kReach = 3;
 constexpr double kJitter = 1e-6;  // of the Voronoi sites [r]; anything from 1e-9 to 1e-3 was measured to do
 
 // Shares of a cook's time, for the progress bar.
+constexpr double kProgressMeasuring = 0.02;
 constexpr double kProgressPacking = 0.1;
-constexpr double kProgressCells = 0.7;
+constexpr double kCuttingShare = 0.2;  // of what is left
 constexpr double kProgressMeshes = 0.9;
 
 // `holds` is written such that NaN fails.
@@ -62,12 +63,24 @@ struct CutElements {
 // Elements packed as densely as can be, unless that leaves thin parts of the solid without.
 CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, const ProgressFunction& report,
                        const LogFunction& log) {
-  report(kProgressPacking, "packing");
-  const Packer packer(solid, options, [&report](double share) {
-    report(kProgressPacking + share * (kProgressCells - kProgressPacking), "packing");
+  report(kProgressMeasuring, "measuring the walls");
+  // Each packing, also one that starts again with smaller elements, gets half of what is left.
+  double done = kProgressPacking;
+  double last = 0;
+  double least = done;
+  const Packer packer(solid, options, [&](double share) {
+    if (share < last) least = done;
+    last = share;
+    done = std::max(done, least + share * (kProgressMeshes - least) / 2);
+    report(done, "packing");
   });
+  if (log)
+    for (const auto& [level, text] : packer.foretell()) log(level, text);
   const auto cut = [&](Elements elements) {
-    report(kProgressCells, "cutting cells");
+    done += kCuttingShare * (kProgressMeshes - done);
+    least = done;
+    last = 0;
+    report(done, "cutting cells");
     RestrictedVoronoi diagram =
         restrictedVoronoi(solid, elements.centres, kJitter * elements.radius, mix(options.seed), log);
     return CutElements{std::move(elements), std::move(diagram)};
@@ -125,7 +138,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
            const LogFunction& log) {
   double done = 0;
   const ProgressFunction report = [&progress, &done](double share, const char* stage) {
-    done = std::max(done, share);  // packing starts again where it has to shrink the elements
+    done = std::max(done, share);
     if (progress) progress(done, stage);
   };
   checkOptions(options);

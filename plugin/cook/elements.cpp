@@ -8,6 +8,7 @@
 #include "cook/message.h"
 #include "cook/random.h"
 #include "cook/spread.h"
+#include "cook/surface_samples.h"
 #include "rubble/limits.h"
 
 namespace rubble::cooking {
@@ -34,8 +35,7 @@ double radiusForFill(double volume, double fill, std::size_t count) {
 }
 
 // The least room, but for this share of the elements.
-double roomOfAllBut(double share, const Packing& packing) {
-  std::vector<double> rooms = packing.rooms;
+double roomOfAllBut(double share, std::vector<double> rooms) {
   const auto least = rooms.begin() + std::ptrdiff_t(share * double(rooms.size()));
   std::nth_element(rooms.begin(), least, rooms.end());
   return *least;
@@ -48,7 +48,7 @@ Packer::Packer(const CheckedMesh& mesh, const CookOptions& options, std::functio
 
 Elements Packer::fill() const {
   if (m_options.radius > 0) return fillAsTold();
-  double radius = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
+  double radius = wantedRadius();
   for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
     Packing packing = packWith(radius, {});
     // Not the next radius for which the thickest corners of a thin solid alone have room.
@@ -78,23 +78,25 @@ Elements Packer::fillAsTold() const {
 
 Elements Packer::fillEvenly() const {
   const bool isGiven = m_options.radius > 0;
-  double radius =
-      isGiven ? m_options.radius : radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
+  double radius = wantedRadius();
   for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
     const std::vector<Room> start = startPlaces(radius);
     Packing packing = packWith(radius, start);
     if (!isGiven && shrinks < kMostShrinks && !fits(packing)) continue;
     requireFit(packing, radius);
-    const double taken = isGiven ? radius : radiusInThinParts(packing, radius);
+    const double taken = isGiven ? radius : radiusInThinParts(packing.rooms, radius);
     for (std::size_t i = 0; i < packing.rooms.size(); ++i)
       packing.deepestProtrusion = std::max(packing.deepestProtrusion, taken - packing.rooms[i]);
     Elements elements = finish(packing, taken);
-    const double wanted = radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
-    if (!isGiven && taken < wanted)
-      noteShrink(taken < kLeastRadius * wanted ? LogLevel::Warning : LogLevel::Info, taken, elements);
-    noteThinParts(packing, elements);
+    if (!isGiven && taken < wantedRadius())
+      noteShrink(taken < kLeastRadius * wantedRadius() ? LogLevel::Warning : LogLevel::Info, taken, elements);
     return elements;
   }
+}
+
+double Packer::wantedRadius() const {
+  return m_options.radius > 0 ? m_options.radius
+                              : radiusForFill(m_mesh.volume, m_options.fill, m_options.elements);
 }
 
 std::vector<Room> Packer::startPlaces(double radius) const {
@@ -103,9 +105,9 @@ std::vector<Room> Packer::startPlaces(double radius) const {
   return spread(*m_distance, m_mesh, {m_options.elements, radius, spacing, mix(m_options.seed)});
 }
 
-double Packer::radiusInThinParts(const Packing& packing, double radius) const {
-  const double floor = std::min(kLeastRadius * radius, kLeastRoom * roomOfAllBut(0.5, packing));
-  return std::clamp(roomOfAllBut(kWithoutRoom, packing), floor, radius);
+double Packer::radiusInThinParts(const std::vector<double>& rooms, double radius) const {
+  const double floor = std::min(kLeastRadius * radius, kLeastRoom * roomOfAllBut(0.5, rooms));
+  return std::clamp(roomOfAllBut(kWithoutRoom, rooms), floor, radius);
 }
 
 Packing Packer::packWith(double radius, std::span<const Room> start) const {
@@ -166,14 +168,22 @@ void Packer::noteShrink(LogLevel level, double radius, Elements& elements) const
                   " m taken, which fills ", fill, "; ", whatFills(radius), " would fill it"));
 }
 
-// Where more than a few elements are thicker than the wall they are in.
-void Packer::noteThinParts(const Packing& packing, Elements& elements) const {
-  const double room = roomOfAllBut(kWithoutRoom, packing);
+std::vector<std::pair<LogLevel, std::string>> Packer::foretell() const {
+  constexpr std::size_t kSamples = 2000;
+  const double radius = wantedRadius();
+  Random random(mix(m_options.seed));
+  std::vector<double> rooms;
+  for (const SurfacePlace& place : sampleSurface(m_mesh, kSamples, random))
+    rooms.push_back(findRoomNear(*m_distance, justBelow(place), radius).depth);
+  const double room = roomOfAllBut(kWithoutRoom, rooms);
   constexpr double kNoticed = 0.98;
-  if (room >= kNoticed * elements.radius) return;
-  elements.notes.emplace_back(LogLevel::Warning,
-                              line("walls of ", 2 * room, " m are thinner than the elements; ", room,
-                                   " m as radius would do, or ", whatFills(room)));
+  if (room >= kNoticed * radius) return {};
+  // Where the radius may be chosen it is chosen smaller, and only what is then left is worth a warning.
+  const double taken = m_options.radius > 0 ? radius : radiusInThinParts(rooms, radius);
+  const bool isMuch = room < kNoticed * taken || taken < kLeastRadius * radius;
+  return {{isMuch ? LogLevel::Warning : LogLevel::Info,
+           line("walls of about ", 2 * room, " m are thinner than the elements, whose radius would be ",
+                radius, " m; ", room, " m as radius would do, or ", whatFills(room))}};
 }
 
 }  // namespace rubble::cooking

@@ -33,6 +33,9 @@ class Packer {
   /// `mesh` and `options` must outlive this. `progress` is told the share of one packing.
   Packer(const CheckedMesh& mesh, const CookOptions& options, std::function<void(double)> progress);
 
+  /// What is to be said before the work, which may take minutes: how thick the thinnest walls are, where
+  /// elements are thicker, and what would do. From places all over the surface; costs less than a packing.
+  std::vector<std::pair<LogLevel, std::string>> foretell() const;
   /// Starts at random wherever a sphere fits: as dense as can be in a solid of one thickness, but parts
   /// thinner than the elements stay empty.
   Elements fill() const;
@@ -47,7 +50,7 @@ class Packer {
   Elements fillAsTold() const;
   Packing packWith(double radius, std::span<const Room> start) const;
   std::vector<Room> startPlaces(double radius) const;
-  double radiusInThinParts(const Packing& packing, double radius) const;
+  double radiusInThinParts(const std::vector<double>& rooms, double radius) const;
   bool fits(const Packing& packing) const;
   void requireFit(const Packing& packing, double radius) const;
   std::string whatFits(double radius) const;
@@ -58,7 +61,7 @@ class Packer {
   void makeApart(double nearest, Elements& elements) const;
   Elements finish(Packing packing, double radius) const;
   void noteShrink(LogLevel level, double radius, Elements& elements) const;
-  void noteThinParts(const Packing& packing, Elements& elements) const;
+  double wantedRadius() const;
 
   const CheckedMesh& m_mesh;
   const CookOptions& m_options;

@@ -16,6 +16,7 @@
 #include "cook/caps.h"
 #include "cook/checked_mesh.h"
 #include "cook/surface_pass.h"
+#include "cook/surface_samples.h"
 #include "rubble/error.h"
 
 namespace rubble::cooking {
@@ -28,11 +29,6 @@ struct CellLists {
   std::span<const std::uint32_t> of(std::uint32_t cell) const {
     return std::span(items).subspan(start[cell], start[cell + 1] - start[cell]);
   }
-};
-
-struct SurfacePlace {
-  Eigen::Vector3d place;   ///< [m]
-  std::uint32_t triangle;  ///< of the mesh
 };
 
 struct RestrictedVoronoi {

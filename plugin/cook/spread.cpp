@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cook/random.h"
+#include "cook/surface_samples.h"
 
 namespace rubble::cooking {
 namespace {
@@ -117,29 +118,14 @@ class Spread {
   }
 
   void addFromSurface() {
-    std::vector<double> upTo;  // area of the triangles up to each
-    double area = 0;
-    for (const auto& [a, b, c] : m_mesh.triangles) {
-      const Eigen::Vector3d& origin = m_mesh.vertices[a];
-      area += (m_mesh.vertices[b] - origin).cross(m_mesh.vertices[c] - origin).norm() / 2;
-      upTo.push_back(area);
-    }
-    const double wanted = kOnSpacing * area / (m_def.spacing * m_def.spacing);
+    const double wanted = kOnSpacing * surfaceArea(m_mesh) / (m_def.spacing * m_def.spacing);
     const std::size_t count = std::size_t(
         std::clamp(wanted, double(kLeastOnSurface * m_def.count), double(kMostOnSurface * m_def.count)));
-    for (std::size_t k = 0; k < count; ++k) {
-      // One in each of `count` equal shares of the surface.
-      const double at = area * (double(k) + m_random.uniform()) / double(count);
-      const auto found = std::upper_bound(upTo.begin(), upTo.end() - 1, at);
-      const auto& [a, b, c] = m_mesh.triangles[std::size_t(found - upTo.begin())];
-      const double u = std::sqrt(m_random.uniform());
-      const double v = u * m_random.uniform();
-      const Eigen::Vector3d place =
-          (1 - u) * m_mesh.vertices[a] + (u - v) * m_mesh.vertices[b] + v * m_mesh.vertices[c];
+    for (const auto& [place, triangle] : sampleSurface(m_mesh, count, m_random)) {
       // A little below, where the distance knows which way is in.
       constexpr double kBelow = 1e-3;
-      const Eigen::Vector3d& normal = m_mesh.normals[std::size_t(found - upTo.begin())];
-      const Room room = findRoomNear(m_distance, place - kBelow * m_def.radius * normal, m_def.radius);
+      const Room room =
+          findRoomNear(m_distance, place - kBelow * m_def.radius * m_mesh.normals[triangle], m_def.radius);
       if (room.depth > 0) m_candidates.push_back(room);
     }
   }

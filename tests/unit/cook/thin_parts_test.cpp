@@ -42,6 +42,7 @@ TEST_P(ThinParts, AreNowhereFarFromTheirElements) {
   ExpectedWarnings warnings;
   const Asset asset = cook(solid.mesh, optionsFor(solid.elements), {}, warnings.log());
   warnings.take("elements would fill it");
+  warnings.take("are thinner than the elements");
   EXPECT_EQ(asset.elementCount(), solid.elements);
   EXPECT_LE(farthestCorner(asset), 3);
 }
@@ -72,6 +73,7 @@ TEST(ThinParts, PlateHasItsShareBesideACube) {
   ExpectedWarnings warnings;
   const Asset asset = cook(plateAndCube(0.0625), optionsFor(600), {}, warnings.log());
   EXPECT_EQ(warnings.take("elements would fill it"), 1);
+  EXPECT_EQ(warnings.take("are thinner than the elements"), 1);
   int inPlate = 0;
   for (const Eigen::Vector3d& p : asset.positions) inPlate += p.y() < 0.1 ? 1 : 0;
   EXPECT_GE(inPlate, 300);
@@ -89,11 +91,67 @@ TEST(ThinParts, GiveTheSameBytesForTheSameSeed) {
 TEST(ThinParts, ThatAreThinnerThanTheElementsAreNamedWithWhatWouldDo) {
   ExpectedWarnings warnings;
   cook(table(0.5, 0.02), optionsFor(300), {}, warnings.log());
-  EXPECT_EQ(warnings.take("thinner than the elements; 0.00"), 1);
+  EXPECT_EQ(warnings.take("are thinner than the elements"), 1);
   EXPECT_EQ(warnings.take("protrudes"), 1);
   CookOptions options = optionsFor(300);
   options.radius = 0.0098;
   EXPECT_LE(farthestCorner(cookStrictly(table(0.5, 0.02), options)), 3);
+}
+
+// The number after `words`.
+double numberAfter(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? -1 : std::stod(text.substr(at + words.size()));
+}
+
+struct Foretold {
+  std::string text, stage;
+};
+
+// What is said of thin walls, and the stage then.
+Foretold foretold(const SurfaceMesh& mesh, const CookOptions& options) {
+  Foretold result;
+  std::string stage;
+  cook(
+      mesh, options, [&stage](double, const char* name) { stage = name; },
+      [&](LogLevel, const std::string& text) {
+        if (text.find("walls of about") != std::string::npos) result = {text, stage};
+      });
+  return result;
+}
+
+// The legs are 2 cm wide, so a sphere of 1 cm fits, and 0.48 V / (4/3 pi (1 cm)^3) of them fill the table. 5
+// %: a place as deep as 0.98 radii counts as room, and the count goes with the third power.
+TEST(ThinParts, AreToldOfBeforeTheWork) {
+  const SurfaceMesh mesh = table(0.5, 0.02);
+  CookOptions given = optionsFor(300);
+  given.radius = 0.0125;
+  for (const CookOptions& options : {optionsFor(300), given}) {
+    const auto [text, stage] = foretold(mesh, options);
+    EXPECT_EQ(stage, "measuring the walls");
+    EXPECT_NEAR(numberAfter(text, "walls of about "), 0.02, 0.05 * 0.02) << text;
+    EXPECT_NEAR(numberAfter(text, "; "), 0.01, 0.05 * 0.01) << text;
+    const double count = 0.48 * volumeOf(mesh) / (4.0 / 3 * std::numbers::pi * 1e-6);
+    EXPECT_NEAR(numberAfter(text, "or about "), count, 0.15 * count) << text;
+  }
+}
+
+TEST(ThinParts, AreNotToldOfWhereElementsFit) {
+  EXPECT_EQ(foretold(ball(1, 16), optionsFor(300)).text, "");
+  EXPECT_EQ(foretold(boxMesh({1, 1, 0.3}), optionsFor(300)).text, "");
+}
+
+// At its second packing as well.
+TEST(ThinParts, KeepTheProgressGoing) {
+  std::vector<double> packing;
+  std::size_t cuts = 0;
+  cook(table(0.1, 0.06), optionsFor(400), [&](double share, const char* stage) {
+    cuts += std::string(stage) == "cutting cells" ? 1 : 0;
+    if (std::string(stage) == "packing" && cuts == 1) packing.push_back(share);
+  });
+  ASSERT_EQ(cuts, 2u);
+  ASSERT_GT(packing.size(), 2u);
+  EXPECT_GT(packing.back(), packing.front());
 }
 
 // In a solid that is thin nearly everywhere all elements fit, and the message says how many would fill it.
@@ -103,6 +161,7 @@ TEST(ThinParts, OfMostOfTheSolidMakeTheElementsSmall) {
   EXPECT_LE(asset.radius, 0.01);
   EXPECT_GE(asset.radius, 0.008);
   EXPECT_EQ(warnings.take("elements would fill it"), 1);
+  EXPECT_EQ(warnings.take("are thinner than the elements"), 1);
 }
 
 }  // namespace

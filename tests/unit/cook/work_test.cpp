@@ -75,6 +75,7 @@ TEST(CookWork, ShellsOfThinWallsCookWithElementsThatFitTheWalls) {
     ExpectedWarnings warnings;
     const Asset asset = cook(mesh, optionsFor(2048), {}, warnings.log());
     EXPECT_EQ(warnings.take("do not fit; radius"), 1);
+    EXPECT_EQ(warnings.take("are thinner than the elements"), 1);
     EXPECT_NEAR(asset.volume(), 8 - 1.99 * 1.99 * 1.99, 1e-9);
     EXPECT_LE(asset.radius, 0.0025);
     EXPECT_GE(asset.radius, 0.9 * 0.9 * 0.0025);
