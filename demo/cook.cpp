@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -50,17 +49,6 @@ void checkTarget(const CookFileOptions& options) {
     throw InputError("--output", name, "is the mesh itself, must be another file");
 }
 
-std::uint64_t elementsOfRadius(double radius, double fill, double volume) {
-  const double ball = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  const double count = std::max(1.0, std::round(fill * volume / ball));
-  if (count > limits::kElements.high) {
-    throw InputError("--radius", numberText(radius),
-                     "makes " + numberText(count) + " elements of a mesh of " + numberText(volume) +
-                         " m^3, must make " + limits::kElements.text());
-  }
-  return std::uint64_t(count);
-}
-
 CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
   CookOptions options;
   options.seed = given.seed;
@@ -70,7 +58,7 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
   if (given.elements) {
     options.elements = *given.elements;
   } else if (given.radius) {
-    options.elements = elementsOfRadius(options.radius, options.fill, volumeOf(mesh));
+    options.elements = 0;  // as many as fill the solid or fit
   }
   return options;
 }

@@ -39,7 +39,9 @@ void require(bool holds, const char* option, const auto& value, const std::strin
 }
 
 void checkOptions(const CookOptions& options) {
-  require(limits::kElements.hold(options.elements), "elements", options.elements, limits::kElements.text());
+  const bool isCountChosen = options.elements == 0 && options.radius > 0;
+  require(isCountChosen || limits::kElements.hold(options.elements), "elements", options.elements,
+          limits::kElements.text());
   require(limits::kElementRadius.hold(options.radius), "radius", options.radius,
           limits::kElementRadius.text() + " m, 0 to choose it by fill");
   require(limits::kFill.hold(options.fill), "fill", options.fill, limits::kFill.text());
@@ -68,7 +70,7 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
   double done = kProgressPacking;
   double last = 0;
   double least = done;
-  const Packer packer(solid, options, [&](double share) {
+  Packer packer(solid, options, [&](double share) {
     if (share < last) least = done;
     last = share;
     done = std::max(done, least + share * (kProgressMeshes - least) / 2);
@@ -91,7 +93,7 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
     return isChanged ? cut(std::move(cells.elements)) : std::move(cells);
   };
   CutElements cells = cut(packer.fill());
-  const double allowed = kReach * std::cbrt(solid.volume / double(options.elements));
+  const double allowed = kReach * std::cbrt(solid.volume / double(cells.elements.centres.size()));
   const double reach = farthestCorner(cells.diagram);
   if (reach <= allowed) return fillEmptyParts(std::move(cells));
 

@@ -44,9 +44,20 @@ double roomOfAllBut(double share, std::vector<double> rooms) {
 }  // namespace
 
 Packer::Packer(const CheckedMesh& mesh, const CookOptions& options, std::function<void(double)> progress)
-    : m_mesh(mesh), m_options(options), m_progress(std::move(progress)), m_distance(signedDistance(mesh)) {}
+    : m_mesh(mesh),
+      m_options(options),
+      m_isCountChosen(options.elements == 0),
+      m_progress(std::move(progress)),
+      m_distance(signedDistance(mesh)) {
+  if (!m_isCountChosen) return;
+  const double count = std::max(1.0, std::round(options.fill * mesh.volume / ballVolume(options.radius)));
+  if (!limits::kElements.hold(count))
+    throw Error(line("elements of radius ", options.radius, " m that fill ", options.fill, " of ",
+                     mesh.volume, " m^3 are ", count, "; allowed: ", limits::kElements.text()));
+  m_options.elements = std::size_t(count);
+}
 
-Elements Packer::fill() const {
+Elements Packer::fill() {
   if (m_options.radius > 0) return fillAsTold();
   double radius = wantedRadius();
   for (int shrinks = 0;; ++shrinks, radius *= kShrink) {
@@ -64,16 +75,27 @@ Elements Packer::fill() const {
   }
 }
 
-Elements Packer::fillAsTold() const {
+Elements Packer::fillAsTold() {
   const double radius = m_options.radius;
   const double fill = double(m_options.elements) * ballVolume(radius) / m_mesh.volume;
   if (fill > 1) {
     throw Error(line(m_options.elements, " elements of radius ", radius, " m fill ", fill,
                      " times the mesh's volume of ", m_mesh.volume, " m^3; ", whatFits(radius)));
   }
+  const std::size_t wanted = m_options.elements;
   Packing packing = packWith(radius, {});
+  while (m_isCountChosen && m_options.elements > 1 && !fits(packing)) {
+    m_options.elements = std::max<std::size_t>(1, std::size_t(kShrink * double(m_options.elements)));
+    packing = packWith(radius, {});
+  }
   requireFit(packing, radius);
-  return finish(std::move(packing), radius);
+  Elements elements = finish(std::move(packing), radius);
+  if (m_options.elements < wanted)
+    elements.notes.emplace_back(
+        LogLevel::Warning, line(wanted, " elements of radius ", radius, " m, which fill ", m_options.fill,
+                                " of the mesh, do not fit; ", m_options.elements, " taken, which fill ",
+                                double(m_options.elements) * ballVolume(radius) / m_mesh.volume));
+  return elements;
 }
 
 Elements Packer::fillEvenly() const {
@@ -111,9 +133,13 @@ double Packer::radiusInThinParts(const std::vector<double>& rooms, double radius
 }
 
 Packing Packer::packWith(double radius, std::span<const Room> start) const {
+  return packCount(m_options.elements, radius, start);
+}
+
+Packing Packer::packCount(std::size_t count, double radius, std::span<const Room> start) const {
   m_distance->fitTo(radius);
-  const PackingDef def{m_options.elements,      radius, mix(m_options.seed), m_options.maxOverlap,
-                       m_options.maxIterations, start};
+  const PackingDef def{count, radius, mix(m_options.seed), m_options.maxOverlap, m_options.maxIterations,
+                       start};
   return pack(*m_distance, m_mesh.bounds, def, m_progress);
 }
 
@@ -131,11 +157,37 @@ void Packer::requireFit(const Packing& packing, double radius) const {
                      " % of their diameter; ", whatFits(radius)));
 }
 
+bool Packer::doFit(std::size_t count, double radius) const {
+  const Packing packing = packCount(count, radius, {});
+  return packing.centres.size() == count && packing.deepestOverlap <= kDeepestOverlap;
+}
+
+// By trying, since the share that can be filled is 0.6 and more in a block and a third of it in thin walls.
+// At most a tenth too few; 0: not one.
+std::size_t Packer::mostThatFit(double radius) const {
+  constexpr double kFirst = 0.55;
+  constexpr double kFewer = 0.7;
+  constexpr double kClose = 1.1;
+  const double whole = m_mesh.volume / ballVolume(radius);
+  std::size_t tooMany = std::min(m_options.elements, std::size_t(whole) + 2);
+  std::size_t fitting = 0;
+  std::size_t next = std::min(tooMany - 1, std::size_t(kFirst * whole) + 1);
+  while (tooMany > fitting + 1 && double(tooMany) > kClose * double(fitting)) {
+    (doFit(next, radius) ? fitting : tooMany) = next;
+    next = fitting == 0 ? std::size_t(kFewer * double(tooMany))
+                        : std::size_t(std::sqrt(double(fitting) * double(tooMany)));
+    next = std::clamp(next, fitting + 1, std::max(fitting + 1, tooMany - 1));
+  }
+  return fitting;
+}
+
 std::string Packer::whatFits(double radius) const {
-  const double count = std::floor(m_options.fill * m_mesh.volume / ballVolume(radius));
+  double smaller = std::min(radius, radiusForFill(m_mesh.volume, m_options.fill, m_options.elements));
+  for (int shrinks = 0; shrinks < kMostShrinks && !doFit(m_options.elements, smaller); ++shrinks)
+    smaller *= kShrink;
   std::ostringstream text;
-  text << "about " << count << " elements of this radius fit, or a radius of about "
-       << radiusForFill(m_mesh.volume, m_options.fill, m_options.elements) << " m";
+  text << "about " << mostThatFit(radius) << " elements of this radius fit, or a radius of about " << smaller
+       << " m";
   return text.str();
 }
 

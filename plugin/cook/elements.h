@@ -30,7 +30,7 @@ struct Elements {
 /// wanted do not fit.
 class Packer {
  public:
-  /// `mesh` and `options` must outlive this. `progress` is told the share of one packing.
+  /// `mesh` must outlive this. `progress` is told the share of one packing.
   Packer(const CheckedMesh& mesh, const CookOptions& options, std::function<void(double)> progress);
 
   /// What is to be said before the work, which may take minutes: how thick the thinnest walls are, where
@@ -38,7 +38,7 @@ class Packer {
   std::vector<std::pair<LogLevel, std::string>> foretell() const;
   /// Starts at random wherever a sphere fits: as dense as can be in a solid of one thickness, but parts
   /// thinner than the elements stay empty.
-  Elements fill() const;
+  Elements fill();
   /// Starts at equal distances all over the solid, thin parts too. Where elements have no room the radius,
   /// if it was not given, shrinks to half at most; those that still have none protrude.
   Elements fillEvenly() const;
@@ -47,8 +47,11 @@ class Packer {
   bool fillEmptyParts(const RestrictedVoronoi& diagram, Elements& elements) const;
 
  private:
-  Elements fillAsTold() const;
+  Elements fillAsTold();
   Packing packWith(double radius, std::span<const Room> start) const;
+  Packing packCount(std::size_t count, double radius, std::span<const Room> start) const;
+  bool doFit(std::size_t count, double radius) const;
+  std::size_t mostThatFit(double radius) const;
   std::vector<Room> startPlaces(double radius) const;
   double radiusInThinParts(const std::vector<double>& rooms, double radius) const;
   bool fits(const Packing& packing) const;
@@ -64,7 +67,8 @@ class Packer {
   double wantedRadius() const;
 
   const CheckedMesh& m_mesh;
-  const CookOptions& m_options;
+  CookOptions m_options;
+  const bool m_isCountChosen;
   const std::function<void(double)> m_progress;
   const std::unique_ptr<SignedDistance> m_distance;
 };

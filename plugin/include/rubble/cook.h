@@ -33,6 +33,8 @@ SurfaceMesh readMesh(const std::filesystem::path& file, double scale = 1);
 
 struct CookOptions {
   /// Number of elements wanted (1 to 10,000,000). The cook makes exactly as many, or throws saying what fits.
+  /// 0, where `radius` is given: chosen so that they fill `fill` of the solid, or fewer, with a warning, where
+  /// so many do not fit.
   std::size_t elements = 2048;
   /// Radius of the elements [m]. 0: chosen so that the spheres fill `fill` of the solid, or less, with a
   /// warning, where so many of that size do not fit (thin walls, few elements).

@@ -165,5 +165,48 @@ TEST(Cook, SaysWhatFitsWhenTheElementsDoNot) {
   expectError(boxMesh({1, 1, 1}), options, "do not fit: they overlap by up to");
 }
 
+// The number named fits, and a fifth more does not.
+TEST(Cook, NamesTheNumberThatFits) {
+  struct Case {
+    SurfaceMesh mesh;
+    double radius;
+  };
+  for (const auto& [mesh, radius] :
+       {Case{boxMesh({1, 1, 1}), 0.08}, Case{ball(1, 16), 0.18}, Case{boxMesh({1, 1, 0.1}), 0.045}}) {
+    CookOptions options =
+        optionsFor(std::size_t(0.95 * volumeOf(mesh) / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3))));
+    options.radius = radius;
+    std::string text;
+    try {
+      cook(mesh, options);
+    } catch (const Error& error) {
+      text = error.what();
+    }
+    const std::size_t at = text.find("about ");
+    ASSERT_NE(at, std::string::npos) << text;
+    const auto count = std::size_t(std::stod(text.substr(at + 6)));
+    options.elements = count;
+    EXPECT_EQ(cook(mesh, options).elementCount(), count);
+    options.elements = std::size_t(1.2 * double(count)) + 1;
+    EXPECT_THROW(cook(mesh, options), Error) << text;
+  }
+}
+
+// In the block 0.48 of its volume has room: 0.48 / (4/3 pi r^3) = 916.7. In the slab, whose spheres stand in
+// one layer, 97 would be that share, and it may be fewer: never more, and never fewer than the 81 of a square
+// lattice of 2 r 9 to a side, a tenth less for the steps.
+TEST(Cook, TakesFewerElementsOfARadiusAlone) {
+  CookOptions options = optionsFor(0);
+  options.radius = 0.049;
+  ExpectedWarnings warnings;
+  const Asset asset = cook(boxMesh({1, 1, 0.1}), options, {}, warnings.log());
+  EXPECT_EQ(asset.radius, 0.049);
+  warnings.take("do not fit;");
+  EXPECT_GE(asset.elementCount(), 72u);
+  EXPECT_LE(asset.elementCount(), 97u);
+  options.radius = 0.05;
+  EXPECT_EQ(cook(boxMesh({1, 1, 1}), options).elementCount(), 917u);  // 0.48 of it
+}
+
 }  // namespace
 }  // namespace rubble::test
