@@ -31,8 +31,10 @@ void GridDistance::fitTo(double radius) {
   const double size = m_mesh.bounds.sizes().maxCoeff();
   // No wider than a tenth of the solid: few large elements still need to feel its shape.
   const double wanted = std::max(std::min(kSpacing * radius, size / 10), size / kMostNodesAlong);
+  const auto reach = double(float(radius + kReach * wanted));  // as a node can hold it
+  if (wanted == m_spacing && reach == m_reach) return;         // the nodes are good
   m_spacing = wanted;
-  m_reach = double(float(radius + kReach * m_spacing));  // as a node can hold it
+  m_reach = reach;
   m_origin = m_mesh.bounds.min() - Eigen::Vector3d::Constant(m_reach + m_spacing);
   m_blocks.clear();
   m_lastBlock = nullptr;
