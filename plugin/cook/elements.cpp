@@ -186,8 +186,13 @@ std::string Packer::whatFits(double radius) const {
   for (int shrinks = 0; shrinks < kMostShrinks && !doFit(m_options.elements, smaller); ++shrinks)
     smaller *= kShrink;
   std::ostringstream text;
-  text << "about " << mostThatFit(radius) << " elements of this radius fit, or a radius of about " << smaller
-       << " m";
+  const std::size_t most = mostThatFit(radius);
+  if (most == 0) {
+    text << "none of this radius fits";
+  } else {
+    text << "about " << most << " elements of this radius fit";
+  }
+  text << ", or a radius of about " << smaller << " m";
   return text.str();
 }
 
@@ -226,7 +231,7 @@ std::vector<std::pair<LogLevel, std::string>> Packer::foretell() const {
   Random random(mix(m_options.seed));
   std::vector<double> rooms;
   for (const SurfacePlace& place : sampleSurface(m_mesh, kSamples, random))
-    rooms.push_back(findRoomNear(*m_distance, justBelow(place), radius).depth);
+    rooms.push_back(findRoomNear(*m_distance, justBelow(place), radius, true).depth);
   const double room = roomOfAllBut(kWithoutRoom, rooms);
   constexpr double kNoticed = 0.98;
   if (room >= kNoticed * radius) return {};

@@ -11,7 +11,8 @@ constexpr double kEnough = 0.98;         // [radii] what is as deep as this is p
 
 }  // namespace
 
-Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, double radius) {
+Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, double radius,
+                  bool outOfCorners) {
   Eigen::Vector3d place = start;
   Distance here = distance.exact(place);
   const auto climb = [&](const Eigen::Vector3d& to) {
@@ -40,7 +41,13 @@ Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, 
       // Beyond a ridge, where another side of the solid is nearest: along the ridge, or less far.
       const Eigen::Vector3d along = up - there.gradient;
       constexpr double kOpposite = 0.1;
-      if (along.norm() > kOpposite) climb(place + step * along.normalized());
+      if (along.norm() > kOpposite) {
+        const Eigen::Vector3d third = climb(place + step * along.normalized()).gradient;
+        // In a sharp corner of three sides: away from all of them alike.
+        const Eigen::Vector3d out = (up + there.gradient).cross(up + third);
+        if (outOfCorners && here.value >= before && out.norm() > kOpposite)
+          climb(place + (out.dot(up) < 0 ? -step : step) * out.normalized());
+      }
       if (here.value >= before) step /= 2;
     }
     step = std::min(step, radius + here.value);

@@ -14,6 +14,8 @@ struct Room {
 
 /// Climbs from a place in the solid, away from the surface, until a sphere of this radius [m] fits; in
 /// a wall thinner than that, to its middle. Never leaves the connected part of the solid.
-Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, double radius);
+/// `outOfCorners`: also where three sides meet sharply, in which a sphere would stay as it is.
+Room findRoomNear(const SignedDistance& distance, const Eigen::Vector3d& start, double radius,
+                  bool outOfCorners = false);
 
 }  // namespace rubble::cooking

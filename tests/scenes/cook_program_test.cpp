@@ -129,8 +129,8 @@ TEST_F(CookProgram, RefusesMeshesByFileAndFault) {
   std::filesystem::create_directory(m_folder.path() / "folder.obj");
   expectRefused("folder.obj -o a.rubble-asset", "folder.obj: is a folder; allowed: a mesh file");
   expectRefused("none.obj -o a.rubble-asset", "none.obj: no such file");
-  expectRefused("a.off -o a.rubble-asset --elements 20 --radius 0.3",
-                "a.off: cook: 20 elements of radius 0.3");
+  expectRefused("a.off -o a.rubble-asset --elements 20 --radius 0.2",
+                "a.off: cook: 20 elements of radius 0.2");
   expectRefused("box.obj -o a.rubble-asset --elements 100 --anchor 1,-1,0",
                 "--anchor: box.obj: has no flat side");
 }

@@ -33,8 +33,8 @@ SurfaceMesh readMesh(const std::filesystem::path& file, double scale = 1);
 
 struct CookOptions {
   /// Number of elements wanted (1 to 10,000,000). The cook makes exactly as many, or throws saying what fits.
-  /// 0, where `radius` is given: chosen so that they fill `fill` of the solid, or fewer, with a warning, where
-  /// so many do not fit.
+  /// 0, where `radius` is given: chosen so that they fill `fill` of the solid, or fewer, with a warning,
+  /// where so many do not fit.
   std::size_t elements = 2048;
   /// Radius of the elements [m]. 0: chosen so that the spheres fill `fill` of the solid, or less, with a
   /// warning, where so many of that size do not fit (thin walls, few elements).
@@ -59,8 +59,9 @@ struct CookOptions {
 /// Cooks a mesh. Parts much thinner than the rest get elements too, at about equal distances: no cell reaches
 /// farther from its element than 3 mean spacings (about 6 radii at the default fill), or a warning says how
 /// far. Where elements are thicker than a wall the radius chosen shrinks, to half at most for the sake of a
-/// few; a warning says which radius or how many elements would do for what protrudes after that. Throws rubble::Error for meshes that are not closed, not oriented, empty, not finite or that
-/// pass through themselves, and when the elements wanted do not fit.
+/// few; a warning says which radius or how many elements would do for what protrudes after that. Throws
+/// rubble::Error for meshes that are not closed, not oriented, empty, not finite or that pass through
+/// themselves, and when the elements wanted do not fit.
 Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
            const LogFunction& log = {});
 
