@@ -10,6 +10,7 @@
 
 #include "demo/place.h"
 #include "rubble/material.h"
+#include "rubble/regime.h"
 
 namespace rubble::demo {
 
@@ -34,6 +35,7 @@ struct SceneObject : Placement {
   double fill = 0.48;
   std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
   double massDamping = 0;                 ///< of the deformation [1/s]
+  Regime regime = Regime::Elements;
   Material material;
   Model model;
 };

@@ -221,6 +221,10 @@ const Table<SceneObject>& objectKeys() {
               .only("boxes and meshes", isCookedHere),
           number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                               "decay rate of the deformation; the rigid motion is not damped"),
+          word<SceneObject, Regime>(
+              "regime", &SceneObject::regime,
+              {{"elements", Regime::Elements}, {"rigid_until_struck", Regime::RigidUntilStruck}},
+              "who moves it: its elements, or Bullet as one rigid body until something strikes it"),
           object<SceneObject, Material>("material", &SceneObject::material, materialKeys(),
                                         "what it is made of"),
           object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),

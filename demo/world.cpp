@@ -178,6 +178,7 @@ void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> as
   def.velocity = toBullet(object.velocity);
   def.spin = toBullet(object.spin);
   def.massDamping = object.massDamping;
+  def.regime = object.regime;
   m_destruction->addBody(def);
 }
 

@@ -7,6 +7,7 @@
 
 #include "bullet/coupler_constraint.h"
 #include "bullet/element_shape.h"
+#include "bullet/whole_shape.h"
 #include "debris/spawn.h"
 #include "rubble/destructible_body.h"
 
@@ -14,6 +15,15 @@ namespace rubble {
 RUBBLE_ABI_BEGIN
 
 struct DestructibleBody::Impl {
+  enum class State {
+    Elements,
+    Whole,    // Bullet's
+    Thawing,  // the elements', from within a tick of Bullet's; Bullet's part follows at its end
+  };
+  State state = State::Elements;
+  bullet::WholeShape whole;            ///< without a shape while the body is not to be whole
+  bool held = false;                   ///< by anchors
+  bool struck = false;                 ///< while whole: by the application
   Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
   std::uint32_t id = 0;
   std::shared_ptr<const Asset> asset;
@@ -33,6 +43,15 @@ struct DestructibleBody::Impl {
 
 /// Marks our bodies for upcast, beside the collision type btRigidBody sets.
 inline constexpr int kDestructibleMark = 0x52554242;  // "RUBB"
+
+/// Downcast of a body that its elements move; null for whole ones and other objects.
+inline const DestructibleBody* upcastElements(const btCollisionObject* object) {
+  const DestructibleBody* body = DestructibleBody::upcast(object);
+  return body && !body->isWhole() ? body : nullptr;
+}
+inline DestructibleBody* upcastElements(btCollisionObject* object) {
+  return const_cast<DestructibleBody*>(upcastElements(static_cast<const btCollisionObject*>(object)));
+}
 
 RUBBLE_ABI_END
 }  // namespace rubble

@@ -25,6 +25,9 @@ inline btVector3 toBullet(const Eigen::Vector3d& v) {
 inline btQuaternion toBullet(const Eigen::Quaterniond& q) {
   return {btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())};
 }
+inline btTransform toBullet(const Eigen::Isometry3d& t) {
+  return btTransform(toBullet(Eigen::Quaterniond(t.linear())), toBullet(Eigen::Vector3d(t.translation())));
+}
 
 RUBBLE_ABI_END
 }  // namespace rubble::bullet

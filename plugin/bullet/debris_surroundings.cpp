@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet/body_impl.h"
 #include "bullet/convert.h"
 
 namespace rubble::bullet {
@@ -26,7 +27,7 @@ void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
   // The world's list and not the broadphase's tree: its order does not depend on the tree's history.
   for (int i = 0; i < m_world.getNumCollisionObjects(); ++i) {
     btCollisionObject& object = *m_world.getCollisionObjectArray()[i];
-    if (DestructibleBody* body = DestructibleBody::upcast(&object)) {
+    if (DestructibleBody* body = upcastElements(&object)) {
       addElements(*body, swept);
       continue;
     }

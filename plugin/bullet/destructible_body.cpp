@@ -10,11 +10,6 @@ RUBBLE_ABI_BEGIN
 DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl)
     : btRigidBody(info), m_impl(std::move(impl)) {
   setUserIndex3(kDestructibleMark);
-  setLinearFactor(btVector3(0, 0, 0));
-  setAngularFactor(btVector3(0, 0, 0));
-  // Bullet's solver makes no contact rows against this body; its manifolds are ours.
-  setContactProcessingThreshold(-BT_LARGE_FLOAT);
-  setFlags(getFlags() | BT_DISABLE_WORLD_GRAVITY);
 }
 
 DestructibleBody::~DestructibleBody() {
@@ -22,9 +17,7 @@ DestructibleBody::~DestructibleBody() {
 }
 
 const DestructibleBody* DestructibleBody::upcast(const btCollisionObject* object) {
-  const bool ours = object->getCollisionShape() &&
-                    object->getCollisionShape()->getShapeType() == FAST_CONCAVE_MESH_PROXYTYPE &&
-                    object->getUserIndex3() == kDestructibleMark;
+  const bool ours = btRigidBody::upcast(object) && object->getUserIndex3() == kDestructibleMark;
   return ours ? static_cast<const DestructibleBody*>(object) : nullptr;
 }
 DestructibleBody* DestructibleBody::upcast(btCollisionObject* object) {
@@ -74,13 +67,38 @@ double DestructibleBody::elementMass() const {
 btVector3 DestructibleBody::linearMomentum() const {
   const edem::Solver& solver = *m_impl->world->solver;
   const edem::BodyView view = solver.view(m_impl->id);
+  if (isWhole()) return btScalar(m_impl->whole.mass) * getLinearVelocity();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < view.mass.size(); ++i)
     if (view.alive[i]) sum += view.mass[i] * solver.velocity(m_impl->id, i);
   return bullet::toBullet(sum);
 }
 
+btVector3 DestructibleBody::angularMomentum() const {
+  if (isWhole()) return getInvInertiaTensorWorld().inverse() * getAngularVelocity();
+  const edem::Solver& solver = *m_impl->world->solver;
+  const edem::BodyView view = solver.view(m_impl->id);
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(), linear = moment, angular = moment;
+  for (std::size_t i = 0; i < view.mass.size(); ++i) {
+    if (!view.alive[i]) continue;
+    const Eigen::Vector3d x = solver.position(m_impl->id, i),
+                          p = view.mass[i] * solver.velocity(m_impl->id, i);
+    mass += view.mass[i];
+    moment += view.mass[i] * x;
+    linear += p;
+    angular += x.cross(p) + view.inertia[i] * solver.spin(m_impl->id, i);
+  }
+  if (mass > 0) angular -= (moment / mass).cross(linear);
+  return bullet::toBullet(angular);
+}
+
+bool DestructibleBody::isWhole() const {
+  return m_impl->state == Impl::State::Whole;
+}
+
 bool DestructibleBody::isAsleep() const {
+  if (isWhole()) return !isActive();
   return m_impl->world->solver->view(m_impl->id).asleep;
 }
 

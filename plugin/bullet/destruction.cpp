@@ -30,6 +30,12 @@ void Destruction::removeBody(DestructibleBody* body) {
   delete body;
 }
 
+void Destruction::strike(DestructibleBody* body) {
+  if (!body->isWhole()) return;
+  body->impl().struck = true;
+  body->activate(true);
+}
+
 std::span<DestructibleBody* const> Destruction::bodies() const {
   return m_impl->bodies;
 }

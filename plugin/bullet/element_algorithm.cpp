@@ -85,7 +85,7 @@ class ElementAlgorithm : public btCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                         const btDispatcherInfo&, btManifoldResult* result) override {
     const btCollisionObject *a = first->getCollisionObject(), *b = second->getCollisionObject();
-    const DestructibleBody *ownA = DestructibleBody::upcast(a), *ownB = DestructibleBody::upcast(b);
+    const DestructibleBody *ownA = upcastElements(a), *ownB = upcastElements(b);
     m_manifold->clearManifold();  // elements move within their body's frame: no point outlives a tick
     if (!ownA == !ownB) return;
     if (!m_isQuery) note(ownA ? *ownA : *ownB, ownA ? *b : *a);

@@ -161,7 +161,8 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
   if (rigid && (proxy.kinematic || !object.isStaticObject())) {
     proxy.velocity = toEigen(rigid->getLinearVelocity());
     proxy.spin = toEigen(rigid->getAngularVelocity());
-    proxy.inverseMass = proxy.kinematic ? 0.0 : double(rigid->getInvMass());
+    const bool locked = rigid->getLinearFactor().isZero() && rigid->getAngularFactor().isZero();
+    proxy.inverseMass = proxy.kinematic || locked ? 0.0 : double(rigid->getInvMass());
   }
   if (proxy.isDynamic()) {
     // All that Bullet's solver will integrate in this tick: gravity and the application's forces.

@@ -47,7 +47,7 @@ class Reachable : public btBroadphaseAabbCallback {
 
   bool process(const btBroadphaseProxy* found) override {
     auto* object = static_cast<btCollisionObject*>(found->m_clientObject);
-    if (DestructibleBody::upcast(object) || !object->hasContactResponse()) return true;
+    if (upcastElements(object) || !object->hasContactResponse()) return true;
     // The broadphase may keep wider boxes than the objects' own, after how they moved.
     if (!TestAabbAgainstAabb2(m_low, m_high, found->m_aabbMin, found->m_aabbMax)) return true;
     btBroadphaseProxy* handle = m_own.getBroadphaseHandle();

@@ -21,9 +21,8 @@ void Destruction::Impl::writeAppliedImpulses() {
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
-    const bool second = DestructibleBody::upcast(manifold.getBody1()) != nullptr;
-    const DestructibleBody* own =
-        DestructibleBody::upcast(second ? manifold.getBody1() : manifold.getBody0());
+    const bool second = upcastElements(manifold.getBody1()) != nullptr;
+    const DestructibleBody* own = upcastElements(second ? manifold.getBody1() : manifold.getBody0());
     if (!own) continue;
     const btCollisionObject* other = second ? manifold.getBody0() : manifold.getBody1();
     for (std::size_t p = 0; p < proxies.size(); ++p) {

@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "bullet/body_def.h"
 #include "bullet/body_impl.h"
+#include "bullet/body_states.h"
 #include "bullet/convert.h"
 #include "bullet/swept_bodies.h"
 #include "debris/bond.h"
@@ -93,8 +94,10 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->shape->calculateLocalInertia(btScalar(mass), inertia);
   btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
   auto* body = new DestructibleBody(info, std::move(impl));
+  body->impl().whole.mass = mass;
   body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
-  body->setActivationState(DISABLE_DEACTIVATION);
+  if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
+  if (!body->isWhole()) bullet::beElements(*body);
   world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
   world.addConstraint(body->impl().coupler.get());
   bodies.push_back(body);
@@ -127,6 +130,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   const auto found = std::find(bodies.begin(), bodies.end(), &body);
   if (found == bodies.end()) return;
   bodies.erase(found);
+  wholes -= body.isWhole();
   world.removeConstraint(body.impl().coupler.get());
   const edem::Books before = solver->books();
   solver->removeBody(body.impl().id);
@@ -154,7 +158,7 @@ void Destruction::Impl::gatherProxies(double dt) {
   for (DestructibleBody* body : bodies) {
     for (btCollisionObject* object : body->impl().near) {
       const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
-      if (std::any_of(touched.begin(), touched.end(), known)) continue;
+      if (upcastElements(object) || std::any_of(touched.begin(), touched.end(), known)) continue;
       edem::RigidProxy proxy = proxyMaker.make(*object);
       if (proxy.parts.empty()) continue;
       bullet::TouchedBody t;
@@ -192,6 +196,7 @@ void Destruction::Impl::advance(double dt) {
   BT_PROFILE("Rubble advance");
   followSleep();
   substeps = 0;
+  thawStruck(dt);
   if (!solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
@@ -247,8 +252,10 @@ void Destruction::Impl::finish(double dt) {
     stepDebris(dt);
   }
   closeLedger(dt);
+  finishThaws();
+  placeWholes();
   updateSleep(dt);
-  advanced = false;
+  advanced = lookedForBlows = false;
 }
 
 void Destruction::Impl::closeLedger(double dt) {
@@ -326,7 +333,7 @@ void Destruction::Impl::stepDebris(double dt) {
       const btCollisionObject* object = world.getCollisionObjectArray()[i];
       const btRigidBody* rigid = btRigidBody::upcast(object);
       const bool moves = rigid && (object->isKinematicObject() || !object->isStaticObject());
-      if (!moves || !rigid->isActive() || DestructibleBody::upcast(object)) continue;
+      if (!moves || !rigid->isActive() || upcastElements(object)) continue;
       if (double(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
       btVector3 low, high;
       rigid->getAabb(low, high);
@@ -354,13 +361,16 @@ void Destruction::Impl::stepDebris(double dt) {
 // Bullet has put islands to sleep, or woken them.
 void Destruction::Impl::followSleep() {
   BT_PROFILE("Rubble follow sleep");
-  for (DestructibleBody* body : bodies) solver->setAsleep(body->id(), !body->isActive());
+  for (DestructibleBody* body : bodies)
+    if (body->impl().state == DestructibleBody::Impl::State::Elements)
+      solver->setAsleep(body->id(), !body->isActive());
 }
 
 // Bullet's own rules decide who sleeps; we tell it whether anything moves.
 void Destruction::Impl::updateSleep(double dt) {
   BT_PROFILE("Rubble update sleep");
   for (DestructibleBody* body : bodies) {
+    if (body->isWhole()) continue;
     const std::uint32_t id = body->id();
     const double speed = body->impl().speed = solver->maxSpeed(id);
     const bool quiet = def.sleep && speed < kQuietSpeed;

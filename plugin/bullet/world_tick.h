@@ -61,6 +61,7 @@ struct Destruction::Impl {
   std::unique_ptr<debris::DebrisSystem> debrisSystem;  ///< null when debris are switched off
   bullet::ElementAlgorithms algorithms;
   bullet::RigidProxies proxyMaker;
+  bullet::RigidProxies blowMaker{nullptr};  ///< says nothing: what does not touch elements stops whole bodies
   std::unique_ptr<bullet::DebrisSurroundings> surroundings;
   std::vector<DestructibleBody*> bodies;
   std::vector<bullet::TouchedBody> touched;
@@ -75,6 +76,8 @@ struct Destruction::Impl {
   std::string failure;
   bool warned = false;  ///< of a tick that could not be followed; once is enough
   int substeps = 0;
+  int wholes = 0;               ///< bodies that Bullet moves
+  bool lookedForBlows = false;  ///< in this tick
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0;
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
@@ -94,6 +97,14 @@ struct Destruction::Impl {
   void closeLedger(double dt);
   void fail(const DestructibleBody& body, const std::string& what);
   void stepDebris(double dt);
+  /// Lends a new body to Bullet, if it may be.
+  void beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef);
+  void placeWhole(DestructibleBody& body);
+  bool isStruck(DestructibleBody& body, btCollisionObject& other, double dt);
+  void thawStruck(double dt);
+  void thaw(DestructibleBody& body, double dt);
+  void finishThaws();
+  void placeWholes();
   void followSleep();
   void updateSleep(double dt);
   DestructibleBody* bodyOf(std::uint32_t id) const;

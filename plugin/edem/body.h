@@ -132,6 +132,7 @@ struct Body {
   std::uint32_t labelledBroken = 0;  ///< brokenCount when the fragments were labelled
   std::uint32_t anchorsIntact = 0;
   bool asleep = false;
+  bool parked = false;         ///< lent to the host, asleep too (parking.h)
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
 
   // Derived from the frames; written by turnRest.

@@ -47,7 +47,7 @@ void PairLists<Real>::grid(const Body<Real>& body, ElementGrid& out) const {
   out.grid.build(out.listed, body.alive, 2 * double(body.radius) + m_skin);
   out.bounds.setEmpty();
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i]) out.bounds.extend(body.origin + out.listed[i]);
+    if (body.alive[i] && !body.parked) out.bounds.extend(body.origin + out.listed[i]);
 }
 
 // The old list of two bodies, or a new one.

@@ -9,6 +9,7 @@
 #include "edem/body_books.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
+#include "edem/parking.h"
 #include "edem/prestress.h"
 #include "edem/step_length.h"
 #include "edem/tick.h"
@@ -110,6 +111,22 @@ class SolverOf final : public Solver {
     if (!asleep) return;
     body.sleepingElastic = elasticOf(body);
     bookSlept(body, m_world.books);
+  }
+
+  bool park(std::uint32_t id) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    if (body.asleep || body.brokenCount > 0 || body.fragmentCount != 1) return false;
+    edem::park(body, m_world.books);
+    m_world.listsStale = true;
+    return true;
+  }
+  void place(std::uint32_t id, const Eigen::Isometry3d& place) override {
+    placeParked(*m_world.bodies[placeOf(id)], place);
+  }
+  void unpark(std::uint32_t id, const Eigen::Vector3d& velocity,
+              const Eigen::Vector3d& angularMomentum) override {
+    edem::unpark(*m_world.bodies[placeOf(id)], velocity, angularMomentum, m_world.books);
+    m_world.listsStale = true;
   }
 
   std::uint64_t hash() const override {

@@ -76,6 +76,15 @@ class Solver {
   virtual void setSettling(std::uint32_t id, double rate) = 0;
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;
+  /// Lends a whole body to the host, which then moves it as one: its elements rest in its frame and touch
+  /// nothing. Only one that is unbroken and a single fragment; false otherwise.
+  virtual bool park(std::uint32_t id) = 0;
+  /// Where the asset's frame of a parked body is; anchored ones stay.
+  virtual void place(std::uint32_t id, const Eigen::Isometry3d& place) = 0;
+  /// Takes it back from where it was placed, with the velocity of its elements' centre of mass [m/s] and the
+  /// angular momentum about that [kg m^2/s].
+  virtual void unpark(std::uint32_t id, const Eigen::Vector3d& velocity,
+                      const Eigen::Vector3d& angularMomentum) = 0;
   /// FNV-1a over the bits of the state of all bodies.
   virtual std::uint64_t hash() const = 0;
 };

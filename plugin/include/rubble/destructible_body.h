@@ -11,8 +11,10 @@
 namespace rubble {
 RUBBLE_ABI_BEGIN
 
-/// Bullet sees a body of true mass that it never moves itself: shape and motion are the elements'. Its Bullet
-/// transform stays the identity; ask poses() for where the elements are. Made by Destruction::addBody only.
+/// While its elements move it, Bullet sees a body of true mass that it never moves itself: shape and motion
+/// are the elements', and its Bullet transform is the identity. While it is whole (Regime::RigidUntilStruck)
+/// it is a rigid body as any other. Either way poses() tells where the elements are. Made by
+/// Destruction::addBody only.
 class DestructibleBody : public btRigidBody {
  public:
   ~DestructibleBody() override;
@@ -35,7 +37,11 @@ class DestructibleBody : public btRigidBody {
   /// Sum over the living elements: mass [kg], momentum.
   double elementMass() const;
   btVector3 linearMomentum() const;
+  /// Angular momentum about their centre of mass [kg m^2/s].
+  btVector3 angularMomentum() const;
   bool isAsleep() const;
+  /// Bullet moves it as one rigid body.
+  bool isWhole() const;
 
   struct Impl;
   Impl& impl() { return *m_impl; }

@@ -19,6 +19,7 @@
 #include "rubble/ledger.h"
 #include "rubble/material.h"
 #include "rubble/pose.h"
+#include "rubble/regime.h"
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
@@ -56,6 +57,7 @@ struct DestructibleBodyDef {
   /// free body, which is logged too. The asset may keep that state (rubble/prestress.h); where it is not this
   /// body's, it is solved anew and a warning logged.
   bool anchored = true;
+  Regime regime = Regime::Elements;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;
 };
@@ -93,6 +95,9 @@ class Destruction : public btActionInterface {
   /// object) may delete it.
   DestructibleBody* addBody(const DestructibleBodyDef& def);
   void removeBody(DestructibleBody* body);
+  /// Hands a whole body to its elements in the next tick, as a blow does: for what the application alone
+  /// knows of, a blast or a cut. Nothing to do for others.
+  void strike(DestructibleBody* body);
   std::span<DestructibleBody* const> bodies() const;
 
   /// What happened since the last call, over any number of ticks. Valid until the next call.

@@ -1,0 +1,48 @@
+#include "bullet/body_states.h"
+
+#include <algorithm>
+
+namespace rubble::bullet {
+RUBBLE_ABI_BEGIN
+
+void beElements(DestructibleBody& body) {
+  ElementShape& shape = *body.impl().shape;
+  btVector3 inertia;
+  shape.calculateLocalInertia(btScalar(body.impl().whole.mass), inertia);
+  body.setCollisionShape(&shape);
+  body.setMassProps(btScalar(body.impl().whole.mass), inertia);
+  body.setWorldTransform(btTransform::getIdentity());
+  body.setInterpolationWorldTransform(btTransform::getIdentity());
+  const btVector3 none(0, 0, 0);
+  body.setLinearVelocity(none);
+  body.setAngularVelocity(none);
+  body.setInterpolationLinearVelocity(none);
+  body.setInterpolationAngularVelocity(none);
+  body.clearForces();
+  body.setGravity(none);
+  body.setLinearFactor(none);
+  body.setAngularFactor(none);
+  body.updateInertiaTensor();
+  // Bullet's solver makes no contact rows against this body; its manifolds are ours.
+  body.setContactProcessingThreshold(-BT_LARGE_FLOAT);
+  body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
+  body.forceActivationState(DISABLE_DEACTIVATION);
+}
+
+void beRigid(DestructibleBody& body, const btTransform& at) {
+  const WholeShape& whole = body.impl().whole;
+  body.setCollisionShape(whole.shape.get());
+  body.setMassProps(btScalar(whole.mass), whole.inertia);
+  body.setWorldTransform(at);
+  body.setInterpolationWorldTransform(at);
+  body.updateInertiaTensor();
+  body.setFriction(btScalar(std::max(0.0, body.material().friction)));
+  body.setRestitution(btScalar(body.material().restitution));
+  if (!body.impl().held) return;
+  body.setLinearFactor({0, 0, 0});
+  body.setAngularFactor({0, 0, 0});
+  body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble::bullet

@@ -1,0 +1,177 @@
+// Bodies that are Bullet's until they are struck.
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <LinearMath/btQuickprof.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bullet/body_states.h"
+#include "bullet/convert.h"
+#include "bullet/thaw.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toBullet;
+using bullet::toEigen;
+
+// What Bullet integrates of a body's velocity in a tick besides gravity, which the substeps apply.
+btVector3 forcedVelocity(const btRigidBody& body, const btVector3& gravity, btScalar dt) {
+  return dt * (body.getInvMass() * body.getTotalForce() * body.getLinearFactor() -
+               gravity * body.getLinearFactor());
+}
+
+// Points that Bullet has found with the body: its solver must not see them any more.
+void clearManifolds(btDispatcher& dispatcher, const btCollisionObject& object) {
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    if (manifold.getBody0() == &object || manifold.getBody1() == &object) manifold.clearManifold();
+  }
+}
+
+// Velocity of a body's centre at the end of the tick, as far as forces go, and what its points are faster
+// [m/s].
+struct Sweep {
+  btVector3 velocity{0, 0, 0};
+  double turning = 0;
+
+  Sweep(const btCollisionObject& object, double dt) {
+    const btRigidBody* body = btRigidBody::upcast(&object);
+    if (!body || (object.isStaticObject() && !object.isKinematicObject())) return;
+    velocity = body->getLinearVelocity() + btScalar(dt) * body->getInvMass() * body->getTotalForce();
+    const btVector3 spin = body->getAngularVelocity();
+    if (!spin.fuzzyZero())
+      turning = double(spin.length() * body->getCollisionShape()->getAngularMotionDisc());
+  }
+};
+
+}  // namespace
+
+void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef) {
+  DestructibleBody::Impl& own = body.impl();
+  const edem::BodyView view = solver->view(own.id);
+  own.whole = bullet::wholeShape(*own.asset, view.mass, view.inertia);
+  own.held = bodyDef.anchored && !own.asset->anchors.empty();
+  const char* reason = own.whole.shape ? nullptr : "its solid is not convex";
+  if (!reason && !solver->park(own.id)) reason = "it is not one piece";
+  if (reason) {
+    if (def.log) def.log(LogLevel::Info, own.name + ": cannot be Bullet's until it is struck: " + reason);
+    return;
+  }
+  own.state = DestructibleBody::Impl::State::Whole;
+  ++wholes;
+  bullet::beRigid(body, bodyDef.transform * toBullet(own.whole.frame));
+  if (own.held) return;
+  body.setLinearVelocity(bodyDef.velocity);
+  body.setAngularVelocity(bodyDef.spin);
+}
+
+void Destruction::Impl::placeWhole(DestructibleBody& body) {
+  const Eigen::Isometry3d place = toEigen(body.getWorldTransform()) * body.impl().whole.frame.inverse();
+  solver->place(body.impl().id, place);
+}
+
+bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
+  const double least = bullet::strikingSpeed(body.material());
+  const DestructibleBody* elements = upcastElements(&other);
+  const Sweep sweep(body, dt);
+  double bound = sweep.turning;
+  if (elements) {
+    bound += elements->impl().speed + double(sweep.velocity.length());
+  } else {
+    const Sweep partner(other, dt);
+    bound += partner.turning + double((sweep.velocity - partner.velocity).length());
+  }
+  if (!(bound > least)) return false;
+  placeWhole(body);
+  if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body), least, dt);
+  const edem::RigidProxy partner = blowMaker.make(other);
+  const bullet::RigidMotion own{toEigen(body.getWorldTransform().getOrigin()),
+                                toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity())};
+  return !partner.parts.empty() && bullet::strikes(*solver, body.id(), own, partner, least, dt);
+}
+
+// Before Bullet solves the contacts of this tick.
+void Destruction::Impl::thawStruck(double dt) {
+  if (std::exchange(lookedForBlows, true) || wholes == 0) return;
+  BT_PROFILE("Rubble thaw struck");
+  btOverlappingPairCache& cache = *world.getPairCache();
+  const btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
+  std::vector<DestructibleBody*> struck;
+  for (DestructibleBody* body : bodies)
+    if (body->isWhole() && body->impl().struck) struck.push_back(body);
+  const auto look = [&](btCollisionObject& object, btCollisionObject& other) {
+    DestructibleBody* body = DestructibleBody::upcast(&object);
+    if (!body || !body->isWhole() || std::find(struck.begin(), struck.end(), body) != struck.end()) return;
+    if (isStruck(*body, other, dt)) struck.push_back(body);
+  };
+  for (int p = 0; p < cache.getNumOverlappingPairs(); ++p) {
+    auto* a = static_cast<btCollisionObject*>(pairs[p].m_pProxy0->m_clientObject);
+    auto* b = static_cast<btCollisionObject*>(pairs[p].m_pProxy1->m_clientObject);
+    if (!a->hasContactResponse() || !b->hasContactResponse() || (!a->isActive() && !b->isActive())) continue;
+    look(*a, *b);
+    look(*b, *a);
+  }
+  std::sort(struck.begin(), struck.end(),
+            [](const DestructibleBody* a, const DestructibleBody* b) { return a->id() < b->id(); });
+  for (DestructibleBody* body : struck) thaw(*body, dt);
+}
+
+// The elements take over in this very tick; Bullet's part of the body follows when its tick is over.
+void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
+  DestructibleBody::Impl& own = body.impl();
+  placeWhole(body);
+  const btVector3 velocity =
+      body.getLinearVelocity() + forcedVelocity(body, world.getGravity(), btScalar(dt));
+  const Eigen::Matrix3d turn = toEigen(body.getWorldTransform()).linear();
+  const Eigen::Vector3d spin =
+      toEigen(body.getAngularVelocity()) +
+      dt * toEigen(btVector3(body.getInvInertiaTensorWorld() * body.getTotalTorque()));
+  // About the elements' own centre: what Bullet calls the body's centre may be beside it.
+  const Eigen::Vector3d arm = turn * own.whole.elementCentre;
+  const Eigen::Vector3d angular =
+      turn * (toEigen(own.whole.inertia).asDiagonal() * (turn.transpose() * spin)) -
+      arm.cross(own.whole.mass * toEigen(velocity));
+  solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
+  own.state = DestructibleBody::Impl::State::Thawing;
+  --wholes;
+  own.speed = solver->maxSpeed(own.id);
+  own.shape->refit(own.speed * dt);
+  body.activate(true);
+  clearManifolds(*world.getDispatcher(), body);
+  // Nor may Bullet's own sweeps of this tick stop anything at it.
+  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  btOverlappingPairCache& cache = *world.getPairCache();
+  const btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
+  for (int p = 0; p < cache.getNumOverlappingPairs(); ++p) {
+    auto* a = static_cast<btCollisionObject*>(pairs[p].m_pProxy0->m_clientObject);
+    auto* b = static_cast<btCollisionObject*>(pairs[p].m_pProxy1->m_clientObject);
+    if (a != &body && b != &body) continue;
+    btCollisionObject* other = a == &body ? b : a;
+    if (other->hasContactResponse()) own.near.push_back(other);
+  }
+}
+
+// Now that Bullet has moved what was in its solver.
+void Destruction::Impl::finishThaws() {
+  for (DestructibleBody* body : bodies) {
+    DestructibleBody::Impl& own = body->impl();
+    if (own.state != DestructibleBody::Impl::State::Thawing) continue;
+    own.state = DestructibleBody::Impl::State::Elements;
+    body->setCollisionFlags(body->getCollisionFlags() & ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    bullet::beElements(*body);
+    btBroadphaseProxy* handle = body->getBroadphaseHandle();
+    world.getPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());
+    world.updateSingleAabb(body);
+  }
+}
+
+void Destruction::Impl::placeWholes() {
+  for (DestructibleBody* body : bodies)
+    if (body->isWhole() && body->isActive()) placeWhole(*body);
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

@@ -1,0 +1,71 @@
+#include "bullet/thaw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rubble::bullet {
+RUBBLE_ABI_BEGIN
+namespace {
+
+// Share of the tensile strength that a blow's stress may reach.
+constexpr double kStressShare = 0.5;
+// Bullet's shape touches before the elements' spheres do: how far an element's surface may be away, in radii
+// and in ways of this tick.
+constexpr double kReachRadii = 1.6, kReachWays = 1.2;
+
+edem::SurfacePoint nearestPart(const edem::RigidProxy& proxy, const Eigen::Vector3d& world) {
+  const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
+  edem::SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
+  for (const edem::Collider& part : proxy.parts) {
+    const edem::SurfacePoint s = edem::nearest(part, local);
+    if (s.distance < best.distance) best = s;
+  }
+  best.normal = proxy.orientation * best.normal;
+  return best;
+}
+
+// An element at x that nears the surface of `proxy` with the velocity `relative`.
+bool reaches(const edem::RigidProxy& proxy, const Eigen::Vector3d& x, const Eigen::Vector3d& relative,
+             double radius, double least, double dt) {
+  const edem::SurfacePoint s = nearestPart(proxy, x);
+  const double closing = -relative.dot(s.normal);
+  return closing > least && s.distance - kReachRadii * radius < kReachWays * closing * dt;
+}
+
+}  // namespace
+
+double strikingSpeed(const Material& material) {
+  return kStressShare * material.tensileStrength / std::sqrt(material.youngsModulus * material.density);
+}
+
+bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& own,
+             const edem::RigidProxy& partner, double strikingSpeed, double dt) {
+  const edem::BodyView view = solver.view(body);
+  const double radius = solver.radius(body);
+  const RigidMotion other{partner.position, partner.velocity, partner.spin};
+  for (std::size_t i = 0; i < view.alive.size(); ++i) {
+    const double light = partner.inverseMass * 2 * view.mass[i];  // over the partner's mass
+    const double least = strikingSpeed * std::sqrt(std::max(1.0, light));
+    const Eigen::Vector3d x = solver.position(body, i);
+    if (reaches(partner, x, own.at(x) - other.at(x), radius, least, dt)) return true;
+  }
+  return false;
+}
+
+bool elementsStrike(const edem::Solver& solver, std::uint32_t striking, const edem::RigidProxy& own,
+                    double strikingSpeed, double dt) {
+  const edem::BodyView view = solver.view(striking);
+  const double radius = solver.radius(striking);
+  const RigidMotion motion{own.position, own.velocity, own.spin};
+  for (std::size_t i = 0; i < view.alive.size(); ++i) {
+    if (!view.alive[i]) continue;
+    const Eigen::Vector3d x = solver.position(striking, i);
+    if (reaches(own, x, solver.velocity(striking, i) - motion.at(x), radius, strikingSpeed, dt)) return true;
+  }
+  return false;
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble::bullet

@@ -1,0 +1,35 @@
+// When a body that Bullet moves as a whole must become elements: the rule, on numbers.
+#pragma once
+
+#include <span>
+
+#include "edem/rigid_proxy.h"
+#include "edem/solver.h"
+#include "rubble/abi.h"
+#include "rubble/material.h"
+
+namespace rubble::bullet {
+RUBBLE_ABI_BEGIN
+
+/// Motion of a rigid body about a point of it.
+struct RigidMotion {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();                                    ///< [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();  ///< [m/s], [rad/s]
+  Eigen::Vector3d at(const Eigen::Vector3d& x) const { return velocity + spin.cross(x - centre); }
+};
+
+/// Closing speed from which a blow may break a material [m/s]: it sends a stress of rho c v, and half of the
+/// tensile strength is where the weakest springs of a packing begin to break.
+double strikingSpeed(const Material& material);
+
+/// Whether something at `partner`'s surface strikes one of the elements within `dt` hard enough. A light
+/// partner gives less: what it does is over before sound has crossed an element.
+bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& own,
+             const edem::RigidProxy& partner, double strikingSpeed, double dt);
+
+/// The same for elements of another body that strike the rigid body `own`.
+bool elementsStrike(const edem::Solver& solver, std::uint32_t striking, const edem::RigidProxy& own,
+                    double strikingSpeed, double dt);
+
+RUBBLE_ABI_END
+}  // namespace rubble::bullet

@@ -1,0 +1,268 @@
+// Bodies that are Bullet's until they are struck.
+#include <gtest/gtest.h>
+
+#include "bullet/bullet_world.h"
+#include "rubble/destructible_body.h"
+#include "support/grid_asset.h"
+
+namespace rubble::test {
+namespace {
+
+DestructibleBodyDef wallDef(Regime regime) {
+  DestructibleBodyDef def;
+  def.asset = smallWall();
+  def.material = material("concrete_soft");
+  def.regime = regime;
+  return def;
+}
+
+// Cubes of 0.05 m, its lowest corner at `corner`.
+DestructibleBodyDef blockDef(const Eigen::Vector3i& cubes, const btVector3& corner,
+                             Regime regime = Regime::RigidUntilStruck) {
+  DestructibleBodyDef def;
+  def.asset = std::make_shared<const Asset>(
+      gridAsset({.cubes = {cubes.x(), cubes.y(), cubes.z()}, .edge = 0.05, .anchored = false}));
+  def.material = material("concrete_soft");
+  def.anchored = false;
+  def.regime = regime;
+  def.transform.setOrigin(corner);
+  return def;
+}
+
+// An L of two arms, 0.1 m thick.
+std::shared_ptr<const Asset> bentSlab() {
+  constexpr std::array<std::array<double, 2>, 6> kOutline = {
+      {{0, 0}, {0.4, 0}, {0.4, 0.1}, {0.1, 0.1}, {0.1, 0.4}, {0, 0.4}}};
+  SurfaceMesh mesh;
+  for (const double z : {0.0, 0.1})
+    for (const auto& p : kOutline) mesh.vertices.emplace_back(p[0], p[1], z);
+  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+    mesh.triangles.push_back({t[2], t[1], t[0]});
+    mesh.triangles.push_back({t[0] + 6, t[1] + 6, t[2] + 6});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t j = (i + 1) % 6;
+    mesh.triangles.push_back({i, j, j + 6});
+    mesh.triangles.push_back({i, j + 6, i + 6});
+  }
+  CookOptions options;
+  options.elements = 60;
+  return std::make_shared<const Asset>(cookStrictly(mesh, options));
+}
+
+struct Blow {
+  std::uint32_t broken, crushed;
+  double exit;
+};
+
+Blow blow(Regime regime, double rate, double after) {
+  BulletWorld w;
+  w.destruction->addBody(wallDef(regime));
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(0.25), btScalar(-0.145 - after * 10)});
+  ball->setLinearVelocity({0, 0, 10});
+  ball->setGravity({0, 0, 0});
+  const btScalar dt = btScalar(1 / rate);
+  for (int tick = 0; tick < int((0.05 + after) * rate + 0.5); ++tick) w.world.stepSimulation(dt, 1, dt);
+  const DestructionCounts counts = w.destruction->counts();
+  EXPECT_LT(std::abs(w.destruction->ledger().linearError), 1e-4);
+  EXPECT_LT(std::abs(w.destruction->ledger().massError), 1e-6);
+  return {counts.springsBroken, counts.crushed, double(ball->getLinearVelocity().z())};
+}
+
+TEST(Regime, ABlowBreaksWhatItBreaksOfElements) {
+  for (const double rate : {60.0, 240.0}) {
+    const Blow elements = blow(Regime::Elements, rate, 0), whole = blow(Regime::RigidUntilStruck, rate, 0);
+    EXPECT_GT(elements.broken, 50u);
+    EXPECT_NEAR(double(whole.broken), double(elements.broken), 0.05 * double(elements.broken)) << rate;
+    EXPECT_NEAR(double(whole.crushed), double(elements.crushed), 2) << rate;
+    EXPECT_NEAR(whole.exit, elements.exit, 0.05 * std::abs(elements.exit)) << rate;
+  }
+}
+
+TEST(Regime, AnUntouchedWallTakesNoSubstepsUntilItIsStruck) {
+  BulletWorld w;
+  DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
+  for (int tick = 0; tick < 300; ++tick) {
+    w.world.stepSimulation(btScalar(1) / 60, 1);
+    ASSERT_EQ(w.destruction->lastSubsteps(), 0);
+  }
+  EXPECT_TRUE(wall->isWhole());
+  EXPECT_TRUE(wall->isAsleep());
+  // Though everything sleeps, a ball wakes it.
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(0.25), -1});
+  ball->setLinearVelocity({0, 0, 10});
+  for (int tick = 0; tick < 12; ++tick) w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_FALSE(wall->isWhole());
+  EXPECT_GT(w.destruction->counts().springsBroken, 50u);
+}
+
+TEST(Regime, AGentleTouchLeavesItWhole) {
+  BulletWorld w;
+  w.world.setGravity({0, 0, 0});
+  DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(0.25), btScalar(-0.15)});
+  ball->setLinearVelocity({0, 0, btScalar(0.1)});
+  for (int tick = 0; tick < 120; ++tick) w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_TRUE(wall->isWhole());
+  EXPECT_NEAR(double(ball->getWorldTransform().getOrigin().z()), -0.14, 2e-3);
+}
+
+TEST(Regime, BothMomentaSurviveTheThaw) {
+  BulletWorld w;
+  w.world.setGravity({0, 0, 0});
+  DestructibleBodyDef def = blockDef({6, 3, 2}, {0, 2, 0});
+  def.transform.setRotation(btQuaternion({1, 2, 3}, btScalar(0.7)));
+  def.velocity = {1, btScalar(0.5), -2};
+  def.spin = {3, -1, 2};
+  def.asset = std::make_shared<const Asset>(*def.asset);
+  DestructibleBody* block = w.destruction->addBody(def);
+  ASSERT_TRUE(block->isWhole());
+  for (int tick = 0; tick < 10; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  const btVector3 linear = block->linearMomentum();
+  const btVector3 spin = block->getAngularVelocity();
+  const btVector3 angular = block->getInvInertiaTensorWorld().inverse() * spin;
+  w.destruction->strike(block);
+  w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  ASSERT_FALSE(block->isWhole());
+  EXPECT_LT(double((block->linearMomentum() - linear).length() / linear.length()), 1e-6);
+  const btVector3 now = block->angularMomentum();
+  EXPECT_LT(double((now - angular).length() / angular.length()), 1e-5);
+  EXPECT_LT(std::abs(w.destruction->ledger().linearError), 1e-6);
+  EXPECT_LT(std::abs(w.destruction->ledger().angularError), 1e-5);
+}
+
+TEST(Regime, PosesFollowTheRigidBody) {
+  BulletWorld w;
+  DestructibleBody* block = w.destruction->addBody(blockDef({4, 2, 2}, {0, 1, 0}));
+  std::vector<ElementPose> before(block->asset()->elementCount()), after = before;
+  block->poses(before);
+  EXPECT_LT(double((before[0].position - Eigen::Vector3f(0.025f, 1.025f, 0.025f)).norm()), 1e-5);
+  block->setAngularVelocity({0, 4, 0});
+  for (int tick = 0; tick < 30; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  block->poses(after);
+  const btTransform& at = block->getWorldTransform();
+  // From the middle of the block to its first element: the same in the body's axes as at rest.
+  const btVector3 local =
+      at.inverse() * btVector3(after[0].position.x(), after[0].position.y(), after[0].position.z());
+  EXPECT_LT(double((local - btVector3(btScalar(-0.075), btScalar(-0.025), btScalar(-0.025))).length()), 1e-5);
+  EXPECT_GT(double((after[0].position - before[0].position).norm()), 0.05);
+}
+
+TEST(Regime, AStackOfEightBlocksStandsAndSleeps) {
+  BulletWorld w;
+  std::vector<DestructibleBody*> blocks;
+  for (int i = 0; i < 8; ++i)
+    blocks.push_back(w.destruction->addBody(blockDef({4, 2, 4}, {0, btScalar(0.1 * i), 0})));
+  for (int tick = 0; tick < 5 * 240; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+  for (int i = 0; i < 8; ++i) {
+    const btVector3 at = blocks[i]->getWorldTransform().getOrigin();
+    EXPECT_TRUE(blocks[i]->isWhole());
+    EXPECT_TRUE(blocks[i]->isAsleep());
+    EXPECT_LT(double((at - btVector3(btScalar(0.1), btScalar(0.05 + 0.1 * i), btScalar(0.1))).length()),
+              0.01);
+  }
+  EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+}
+
+// Crates on crates on a slab rest and sleep where they do on a plain rigid body of Bullet's.
+TEST(Regime, CratesRestOnASlab) {
+  btBoxShape crate({btScalar(0.1), btScalar(0.1), btScalar(0.1)});
+  btBoxShape plain({btScalar(0.25), btScalar(0.05), btScalar(0.25)});
+  const auto heights = [&](bool destructible, btScalar rate, btScalar lower, btScalar upper) {
+    BulletWorld w;
+    const DestructibleBodyDef def = blockDef({10, 2, 10}, {btScalar(-0.25), 0, btScalar(-0.25)});
+    btRigidBody* slab = nullptr;
+    if (destructible) {
+      slab = w.destruction->addBody(def);
+    } else {
+      slab = w.add(btScalar(2400 * 0.5 * 0.1 * 0.5), plain, {0, btScalar(0.05), 0});
+      slab->setFriction(btScalar(def.material.friction));
+    }
+    std::vector<btRigidBody*> crates = {w.add(lower, crate, {0, btScalar(0.2), 0})};
+    if (upper > 0) crates.push_back(w.add(upper, crate, {0, btScalar(0.4), 0}));
+    for (int tick = 0; tick < int(4 * rate); ++tick) w.world.stepSimulation(1 / rate, 1, 1 / rate);
+    EXPECT_FALSE(slab->isActive());
+    if (destructible) { EXPECT_TRUE(DestructibleBody::upcast(slab)->isWhole()); }
+    std::vector<double> all;
+    for (const btRigidBody* c : crates) {
+      EXPECT_FALSE(c->isActive()) << rate << " Hz, " << lower << " and " << upper << " kg";
+      all.push_back(double(c->getWorldTransform().getOrigin().y()));
+    }
+    return all;
+  };
+  for (const int rate : {60, 120, 480}) {
+    for (const auto& [lower, upper] : {std::pair(1, 0), {10, 10}, {1, 20}, {50, 0}}) {
+      const auto ours = heights(true, btScalar(rate), btScalar(lower), btScalar(upper));
+      const auto bullets = heights(false, btScalar(rate), btScalar(lower), btScalar(upper));
+      for (std::size_t i = 0; i < ours.size(); ++i)
+        EXPECT_NEAR(ours[i], bullets[i], 1e-3) << rate << " Hz, " << lower << " and " << upper << " kg";
+    }
+  }
+}
+
+TEST(Regime, ItFallsOnTriangleMeshes) {
+  BulletWorld w;
+  w.world.removeRigidBody(w.ground);
+  delete w.ground;
+  btTriangleMesh triangles;
+  triangles.addTriangle({-2, 0, -2}, {2, 0, -2}, {2, 0, 2});
+  triangles.addTriangle({-2, 0, -2}, {2, 0, 2}, {-2, 0, 2});
+  btBvhTriangleMeshShape floor(&triangles, true);
+  w.add(0, floor, {0, 0, 0});
+  const DestructibleBody* block = w.destruction->addBody(blockDef({4, 2, 4}, {0, btScalar(0.01), 0}));
+  for (int tick = 0; tick < 240; ++tick) w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_NEAR(double(block->getWorldTransform().getOrigin().y()), 0.05, 2e-3);
+  EXPECT_TRUE(block->isAsleep());
+}
+
+TEST(Regime, TwoWholeBlocksThatMeetBreakAsElementsDo) {
+  const auto broken = [](Regime regime) {
+    BulletWorld w;
+    w.world.setGravity({0, 0, 0});
+    DestructibleBodyDef left = blockDef({4, 4, 4}, {0, 1, 0}, regime), right = left;
+    right.transform.setOrigin({btScalar(0.25), 1, 0});
+    left.velocity = {3, 0, 0};
+    right.velocity = {-3, 0, 0};
+    const DestructibleBody* a = w.destruction->addBody(left);
+    const DestructibleBody* b = w.destruction->addBody(right);
+    for (int tick = 0; tick < 24; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+    const btVector3 sum = a->linearMomentum() + b->linearMomentum();
+    EXPECT_LT(double(sum.length()), 1e-3 * 3 * a->elementMass());
+    return double(w.destruction->counts().springsBroken);
+  };
+  const double elements = broken(Regime::Elements);
+  EXPECT_GT(elements, 20);
+  EXPECT_NEAR(broken(Regime::RigidUntilStruck), elements, 0.1 * elements);
+}
+
+TEST(Regime, ForcesVelocitiesAndTransformsAreTheApplications) {
+  BulletWorld w;
+  w.world.setGravity({0, 0, 0});
+  DestructibleBody* block = w.destruction->addBody(blockDef({2, 2, 2}, {0, 1, 0}));
+  const double mass = block->elementMass();
+  for (int tick = 0; tick < 60; ++tick) {
+    block->applyCentralForce({btScalar(mass), 0, 0});
+    w.world.stepSimulation(btScalar(1) / 60, 1);
+  }
+  EXPECT_NEAR(double(block->getLinearVelocity().x()), 1, 1e-3);
+  block->setWorldTransform(btTransform(btQuaternion::getIdentity(), {5, 5, 5}));
+  w.world.stepSimulation(btScalar(1) / 60, 1);
+  std::vector<ElementPose> poses(block->asset()->elementCount());
+  block->poses(poses);
+  EXPECT_NEAR(double(poses[0].position.y()), 5 - 0.025, 1e-3);
+}
+
+TEST(Regime, ASolidThatIsNotConvexStaysElementsAndThatIsSaid) {
+  std::vector<std::string> lines;
+  DestructionDef definition;
+  definition.log = [&](LogLevel, const std::string& line) { lines.push_back(line); };
+  BulletWorld w(definition);
+  DestructibleBodyDef def = blockDef({1, 1, 1}, {0, 0, 0});
+  def.asset = bentSlab();
+  EXPECT_FALSE(w.destruction->addBody(def)->isWhole());
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("not convex"), std::string::npos) << lines.back();
+}
+
+}  // namespace
+}  // namespace rubble::test
