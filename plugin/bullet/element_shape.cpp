@@ -1,21 +1,20 @@
 #include "bullet/element_shape.h"
 
-#include <BulletCollision/CollisionShapes/btSphereShape.h>
-#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
-#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
-#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "bullet/cell_sweep.h"
 #include "bullet/convert.h"
+#include "edem/cell_ray.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 ElementShape::ElementShape(const edem::Solver& solver, std::uint32_t body) : m_solver(solver), m_body(body) {
   m_shapeType = FAST_CONCAVE_MESH_PROXYTYPE;
+  follow();
   refit(0);
 }
 
@@ -35,65 +34,96 @@ void ElementShape::getAabb(const btTransform&, btVector3& low, btVector3& high) 
   high = m_high;
 }
 
-// Bullet's generic concave path for rays and sweeps: each element answers as a sphere.
+// Bullet's generic concave path for rays and sweeps: each element answers as its cell.
 void ElementShape::processAllTriangles(btTriangleCallback* callback, const btVector3&,
                                        const btVector3&) const {
-  if (m_hidden) return;
   if (auto* ray = dynamic_cast<btTriangleRaycastCallback*>(callback)) {
     answer(*ray);
-  } else if (auto* sweep = dynamic_cast<btTriangleConvexcastCallback*>(callback)) {
+  } else if (auto* sweep = dynamic_cast<btTriangleConvexcastCallback*>(callback); sweep && !m_hidden) {
     answer(*sweep);
   }
 }
 
-std::vector<std::uint32_t> ElementShape::elementsAlong(const btVector3& low, const btVector3& high) const {
-  Eigen::AlignedBox3d box(toEigen(low), toEigen(high));
-  box.min().array() -= m_solver.radius(m_body);
-  box.max().array() += m_solver.radius(m_body);
-  std::vector<std::uint32_t> near;
-  m_solver.elementsIn(m_body, box, near);
+// Elements whose reach a ball meets on its way, by where it first does: nothing is hit before.
+std::vector<ElementShape::Near> ElementShape::nearest(const std::vector<std::uint32_t>& elements,
+                                                      const btVector3& from, const btVector3& to,
+                                                      double ball) const {
+  const edem::CellFaces* cells = m_solver.cells(m_body);
+  const Eigen::Vector3d start = toEigen(from), way = toEigen(to) - start;
+  const double length2 = way.squaredNorm();
+  std::vector<Near> near;
+  for (const std::uint32_t i : elements) {
+    const Eigen::Vector3d at = m_solver.position(m_body, i) - start;
+    const double reach = ball + (cells ? cells->reach[i] : m_solver.radius(m_body));
+    // What only turns is near all the way.
+    const double middle = length2 > 0 ? at.dot(way) / length2 : 0.5;
+    const double inside2 = reach * reach - (at - middle * way).squaredNorm();
+    if (inside2 < 0) continue;
+    const double half = length2 > 0 ? std::sqrt(inside2 / length2) : 0.5;
+    if (middle + half >= 0 && middle - half <= 1) near.push_back({middle - half, middle + half, i});
+  }
+  std::sort(near.begin(), near.end());
   return near;
 }
 
+// Elements are solid: a ray hits where it enters one, never where it leaves, whatever its flags say of faces
+// seen from behind.
 void ElementShape::answer(btTriangleRaycastCallback& ray) const {
+  const edem::CellFaces* cells = m_solver.cells(m_body);
   const Eigen::Vector3d from = toEigen(ray.m_from), along = toEigen(ray.m_to) - from;
-  const double length2 = along.squaredNorm(), radius = m_solver.radius(m_body);
-  if (!(length2 > 0)) return;
-  btVector3 low = ray.m_from, high = ray.m_from;
-  low.setMin(ray.m_to);
-  high.setMax(ray.m_to);
-  for (const std::uint32_t i : elementsAlong(low, high)) {
-    const Eigen::Vector3d to = m_solver.position(m_body, i) - from;
-    const double middle = to.dot(along) / length2;
-    const double miss2 = (to - middle * along).squaredNorm();
-    if (miss2 > radius * radius) continue;
-    const double t = middle - std::sqrt((radius * radius - miss2) / length2);
-    if (t < 0 || t > double(ray.m_hitFraction)) continue;
-    const Eigen::Vector3d normal = (t * along - to).normalized();
-    ray.m_hitFraction = ray.reportHit(toBullet(normal), btScalar(t), 0, int(i));
+  if (!(along.squaredNorm() > 0)) return;
+  const btVector3 none(0, 0, 0);
+  for (const Near& n : nearest(m_tree.along(ray.m_from, ray.m_to, none, none), ray.m_from, ray.m_to, 0)) {
+    const double limit = double(ray.m_hitFraction);
+    if (n.begin > limit) break;
+    const Eigen::Vector3d to = m_solver.position(m_body, n.element) - from;
+    double t = n.begin;
+    Eigen::Vector3d normal = (t * along - to).normalized();
+    if (cells) {
+      const Eigen::Quaterniond turn = m_solver.orientation(m_body, n.element), back = turn.conjugate();
+      const auto entry =
+          edem::firstEntry(*cells, n.element, back * Eigen::Vector3d(-to), back * along, limit);
+      if (!entry) continue;
+      t = entry->t;
+      normal = turn * entry->normal;
+    }
+    if (t < 0) continue;
+    ray.m_hitFraction = ray.reportHit(toBullet(normal), btScalar(t), 0, int(n.element));
   }
 }
 
 void ElementShape::answer(btTriangleConvexcastCallback& sweep) const {
-  btVector3 low, high, endLow, endHigh;
-  sweep.m_convexShape->getAabb(sweep.m_convexShapeFrom, low, high);
-  sweep.m_convexShape->getAabb(sweep.m_convexShapeTo, endLow, endHigh);
-  low.setMin(endLow);
-  high.setMax(endHigh);
-  const btSphereShape ball(btScalar(m_solver.radius(m_body)));
-  for (const std::uint32_t i : elementsAlong(low, high)) {
-    const btTransform at(btQuaternion::getIdentity(), toBullet(m_solver.position(m_body, i)));
-    btVoronoiSimplexSolver simplex;
-    btGjkEpaPenetrationDepthSolver depth;
-    btContinuousConvexCollision cast(sweep.m_convexShape, &ball, &simplex, &depth);
-    btConvexCast::CastResult result;
-    result.m_fraction = sweep.m_hitFraction;
-    result.m_allowedPenetration = sweep.m_allowedPenetration;
-    if (!cast.calcTimeOfImpact(sweep.m_convexShapeFrom, sweep.m_convexShapeTo, at, at, result)) continue;
-    if (result.m_normal.length2() < btScalar(1e-4) || !(result.m_fraction < sweep.m_hitFraction)) continue;
-    sweep.m_hitFraction =
-        sweep.reportHit(result.m_normal.normalized(), result.m_hitPoint, result.m_fraction, 0, int(i));
+  const btTransform &from = sweep.m_convexShapeFrom, &to = sweep.m_convexShapeTo;
+  // A ball about what moves holds it however it turns.
+  btVector3 centre;
+  btScalar ball;
+  sweep.m_convexShape->getBoundingSphere(centre, ball);
+  ball += centre.length();
+  btVector3 low = btVector3(-1, -1, -1) * ball, high = btVector3(1, 1, 1) * ball;
+  if (from.getBasis() == to.getBasis()) sweep.m_convexShape->getAabb(btTransform(from.getBasis()), low, high);
+  const auto elements = m_tree.along(from.getOrigin(), to.getOrigin(), low, high);
+  for (const Near& n : nearest(elements, from.getOrigin(), to.getOrigin(), double(ball))) {
+    if (n.begin > double(sweep.m_hitFraction)) break;
+    sweepElement(n, sweep);
   }
+}
+
+// About the element's centre and where it is near, so that Bullet's floats lose nothing of what a long way or
+// a far place takes.
+void ElementShape::sweepElement(const Near& near, btTriangleConvexcastCallback& sweep) const {
+  const btVector3 centre = toBullet(m_solver.position(m_body, near.element));
+  const CellShape cell(m_solver.cells(m_body), near.element, m_solver.radius(m_body));
+  const btTransform at(toBullet(m_solver.orientation(m_body, near.element)));
+  btTransform first = sweep.m_convexShapeFrom, last = sweep.m_convexShapeTo;
+  first.setOrigin(first.getOrigin() - centre);
+  last.setOrigin(last.getOrigin() - centre);
+  const btScalar begin = btScalar(std::max(0.0, near.begin)), end = btScalar(std::min(1.0, near.end));
+  const auto hit = sweepShape(*sweep.m_convexShape, between(first, last, begin), between(first, last, end),
+                              cell, at, sweep.m_allowedPenetration);
+  if (!hit) return;
+  const btScalar fraction = begin + hit->fraction * (end - begin);
+  if (!(fraction < sweep.m_hitFraction)) return;
+  sweep.m_hitFraction = sweep.reportHit(hit->normal, hit->onCell + centre, fraction, 0, int(near.element));
 }
 
 void ElementShape::calculateLocalInertia(btScalar mass, btVector3& inertia) const {

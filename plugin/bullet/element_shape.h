@@ -1,11 +1,13 @@
-// A destructible body's collision shape: the spheres of its living elements. Concave and of a type that
-// nothing in Bullet uses, so that our own algorithm is called for every pair.
+// A destructible body's collision shape: the cells of its living elements, or their spheres. Concave and of a
+// type that nothing in Bullet uses, so that our own algorithm is called for every pair.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 
+#include <compare>
 #include <vector>
 
+#include "bullet/element_tree.h"
 #include "edem/solver.h"
 #include "rubble/abi.h"
 
@@ -25,6 +27,9 @@ class ElementShape : public btConcaveShape {
   void refit(double travel);
   /// By which the bounds are wider than what the elements may travel [m].
   double margin() const { return m_solver.radius(m_body); }
+  /// Takes where the elements are, for queries; to be called whenever they have moved. Between two calls
+  /// queries change nothing: several threads may ask at once.
+  void follow() { m_tree.follow(m_solver, m_body); }
   /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a
   /// ball in the air that our contacts have let through.
   void setHidden(bool hidden) { m_hidden = hidden; }
@@ -38,13 +43,21 @@ class ElementShape : public btConcaveShape {
   const char* getName() const override { return "RubbleElements"; }
 
  private:
-  /// Living elements whose spheres may reach into the box.
-  std::vector<std::uint32_t> elementsAlong(const btVector3& low, const btVector3& high) const;
+  struct Near {
+    double begin, end;  // shares of the way
+    std::uint32_t element;
+    auto operator<=>(const Near&) const = default;
+  };
+
+  std::vector<Near> nearest(const std::vector<std::uint32_t>& elements, const btVector3& from,
+                            const btVector3& to, double ball) const;
   void answer(btTriangleRaycastCallback& ray) const;
   void answer(btTriangleConvexcastCallback& sweep) const;
+  void sweepElement(const Near& near, btTriangleConvexcastCallback& sweep) const;
 
   const edem::Solver& m_solver;
   std::uint32_t m_body;
+  ElementTree m_tree;
   bool m_hidden = false;
   btVector3 m_low{0, 0, 0}, m_high{0, 0, 0};
   btVector3 m_scaling{1, 1, 1};

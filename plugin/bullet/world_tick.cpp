@@ -210,6 +210,7 @@ void Destruction::Impl::advance(double dt) {
   times.neighbours += solver->report().listing;
   times.edem -= solver->report().listing;
   if (!solver->failure().empty()) failSolver();
+  followElements();
   if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
     def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
@@ -229,6 +230,13 @@ void Destruction::Impl::advance(double dt) {
     if (proxies[p].contactWeight > 0 && !t.rigid->isActive()) t.rigid->activate();
   }
   for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
+}
+
+// What asks from now on, even before the tick is over, finds the elements where the substeps left them.
+void Destruction::Impl::followElements() {
+  if (!failure.empty()) return;  // places may not be numbers
+  for (DestructibleBody* body : bodies)
+    if (!solver->view(body->id()).asleep) body->impl().shape->follow();
 }
 
 void Destruction::Impl::finish(double dt) {

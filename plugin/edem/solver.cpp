@@ -88,6 +88,7 @@ class SolverOf final : public Solver {
   Eigen::AlignedBox3d bounds(std::uint32_t id) const override { return boundsOf(of(id)); }
   double maxSpeed(std::uint32_t id) const override { return speedOf(of(id)); }
   double radius(std::uint32_t id) const override { return double(of(id).radius); }
+  const CellFaces* cells(std::uint32_t id) const override { return of(id).cells.get(); }
   void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
                   std::vector<std::uint32_t>& out) const override {
     edem::elementsIn(of(id), box, out);

@@ -64,6 +64,8 @@ class Solver {
   virtual double maxSpeed(
       std::uint32_t id) const = 0;  ///< of element centres, and of their surfaces by spin [m/s]
   virtual double radius(std::uint32_t id) const = 0;
+  /// Faces of the elements' cells; null where rigid bodies touch spheres. Lives as long as the body.
+  virtual const CellFaces* cells(std::uint32_t id) const = 0;
   /// Living elements whose centre lies in the box now, in rising order. Looks at every element.
   virtual void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
                           std::vector<std::uint32_t>& out) const = 0;
