@@ -50,11 +50,7 @@ class Reachable : public btBroadphaseAabbCallback {
     if (upcastElements(object) || !object->hasContactResponse()) return true;
     // The broadphase may keep wider boxes than the objects' own, after how they moved.
     if (!TestAabbAgainstAabb2(m_low, m_high, found->m_aabbMin, found->m_aabbMax)) return true;
-    btBroadphaseProxy* handle = m_own.getBroadphaseHandle();
-    if (!m_world.getPairCache()->needsBroadphaseCollision(handle, object->getBroadphaseHandle()) ||
-        !m_world.getDispatcher()->needsCollision(&m_own, object))
-      return true;
-    m_objects.push_back(object);
+    if (mayTouch(m_world, m_own, *object)) m_objects.push_back(object);
     return true;
   }
 
@@ -68,6 +64,12 @@ class Reachable : public btBroadphaseAabbCallback {
 };
 
 }  // namespace
+
+bool mayTouch(btCollisionWorld& world, DestructibleBody& body, btCollisionObject& object) {
+  return world.getPairCache()->needsBroadphaseCollision(body.getBroadphaseHandle(),
+                                                        object.getBroadphaseHandle()) &&
+         world.getDispatcher()->needsCollision(&body, &object);
+}
 
 void addSwept(btCollisionWorld& world, std::span<DestructibleBody* const> bodies, double dt) {
   const double reach = kRebound * fastestNear(bodies, dt) * dt;

@@ -12,6 +12,9 @@
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
+/// Whether groups, masks, filters and ignore lists let a destructible body touch an object of its world.
+bool mayTouch(btCollisionWorld& world, DestructibleBody& body, btCollisionObject& object);
+
 /// Adds to what each body that is awake has `near` the objects that its elements may reach in the coming tick
 /// of `dt` seconds, by rising number in the broadphase. Groups, masks, filters and ignore lists hold. Looks
 /// at nothing while nothing near is fast enough to throw an element out of its body's bounds.

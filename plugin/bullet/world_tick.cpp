@@ -189,6 +189,19 @@ void Destruction::Impl::gatherProxies(double dt) {
     }
     body->impl().near.clear();
   }
+  spareFiltered();
+}
+
+// The copies of all bodies' neighbours are one list: what one body touches another may have to let through.
+void Destruction::Impl::spareFiltered() {
+  if (bodies.size() < 2) return;
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    btCollisionObject& object = *touched[p].object;
+    if (!object.getBroadphaseHandle()) continue;  // gone from the world since the narrowphase
+    for (DestructibleBody* body : bodies)
+      if (body->isActive() && !bullet::mayTouch(world, *body, object))
+        proxies[p].spared.push_back(body->id());
+  }
 }
 
 void Destruction::Impl::advance(double dt) {

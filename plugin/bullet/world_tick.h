@@ -86,6 +86,7 @@ struct Destruction::Impl {
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
   void logPrestress(std::uint32_t id, const std::string& name, const DestructibleBodyDef& bodyDef) const;
   void gatherProxies(double dt);
+  void spareFiltered();
   void followElements();
   void lateImpulses();
   void fixPositions();

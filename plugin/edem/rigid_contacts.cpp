@@ -132,6 +132,7 @@ template <class Real>
 void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
                                    const PairLists<Real>& lists) {
   const RigidProxy& proxy = m_proxies[p];
+  if (std::find(proxy.spared.begin(), proxy.spared.end(), body.id) != proxy.spared.end()) return;
   const ElementGrid& own = lists.grid(place);
   // From now on the element may move a whole skin (from one side of its listed place to the other) and the
   // proxy half.

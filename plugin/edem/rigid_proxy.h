@@ -2,6 +2,7 @@
 // elements do to it.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct RigidProxy {
   double friction = 0.5;   ///< mu of the pair is this times the element's, as Bullet combines them
   double restitution = 0;  ///< that of the pair is this times the element's
   std::vector<Collider> parts;
+  std::vector<std::uint32_t> spared;  ///< bodies whose elements it does not touch (ids)
 
   // Collected by the substeps.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();         ///< on the rigid body [N s]

@@ -162,6 +162,39 @@ TEST(Swept, WallThatIsFilteredOutIsFlownThrough) {
   }
 }
 
+// The ball is free to pass the first wall, and meets the second while it is still in the first.
+TEST(Filter, BodyThatIsFilteredOutIsNotTouchedBesideOneThatIsNot) {
+  enum class By { Mask, IgnoreList };
+  for (const By by : {By::Mask, By::IgnoreList}) {
+    DestructionDef definition;
+    definition.breaking = false;
+    BulletWorld w(definition);
+    w.world.setGravity({0, 0, 0});
+    btRigidBody* ball = w.add(1, w.ballShape, {0, btScalar(0.25), btScalar(-0.2)});
+    ball->setLinearVelocity({0, 0, 5});
+    DestructibleBodyDef def;
+    def.asset = smallWall();
+    def.material = material("concrete_soft");
+    def.transform.setOrigin({0, 0, btScalar(0.1)});
+    const DestructibleBody* second = w.destruction->addBody(def);
+    def.transform.setOrigin({0, 0, 0});
+    if (by == By::Mask) def.collisionMask = btBroadphaseProxy::StaticFilter;
+    DestructibleBody* first = w.destruction->addBody(def);
+    if (by == By::IgnoreList) first->setIgnoreCollisionCheck(ball, true);
+    double given = 0;
+    for (int tick = 0; tick < 24; ++tick) {
+      w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+      for (const ContactImpulse& c : w.destruction->takeEvents().contacts) {
+        if (c.other != ball) continue;
+        EXPECT_EQ(c.body, second->id()) << int(by);
+        given += double(c.impulse);
+      }
+    }
+    EXPECT_GT(given, 5) << "the ball turned round: 1 kg, 5 m/s";
+    EXPECT_LT(double(ball->getLinearVelocity().z()), 0);
+  }
+}
+
 TEST(Swept, ElementFirstSeenDeepIsNoFasterThanItCame) {
   // Its overlap was never pressed in, so that no spring gives it back, however fast it is and whatever stands
   // close by. Rounding: 1e-4 of its speed.
