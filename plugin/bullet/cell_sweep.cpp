@@ -74,6 +74,13 @@ std::optional<CellDistance> distanceOf(const btConvexShape& shape, const btTrans
   return found;
 }
 
+CellDistance distanceOf(const btStaticPlaneShape& plane, const btTransform& planeAt, const CellShape& cell,
+                        const btTransform& cellAt) {
+  const btVector3 up = planeAt.getBasis() * plane.getPlaneNormal();
+  const btVector3 deepest = cellAt * cell.localGetSupportingVertex(cellAt.getBasis().transpose() * -up);
+  return {up.dot(deepest - planeAt.getOrigin()) - plane.getPlaneConstant(), -up, deepest};
+}
+
 // Bullet's own (btTransformUtil) ends at an eighth of a turn.
 btTransform between(const btTransform& from, const btTransform& to, btScalar fraction) {
   btTransform at(from.getBasis(), from.getOrigin().lerp(to.getOrigin(), fraction));

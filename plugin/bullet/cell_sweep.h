@@ -3,6 +3,8 @@
 // enlarged.
 #pragma once
 
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+
 #include <optional>
 
 #include "bullet/cell_shape.h"
@@ -19,6 +21,10 @@ struct CellDistance {
 /// Distance of a shape from a cell; nothing where Bullet finds none. Best near the origin.
 std::optional<CellDistance> distanceOf(const btConvexShape& shape, const btTransform& shapeAt,
                                        const CellShape& cell, const btTransform& cellAt);
+
+/// The same of a half space, from the cell's deepest vertex.
+CellDistance distanceOf(const btStaticPlaneShape& plane, const btTransform& planeAt, const CellShape& cell,
+                        const btTransform& cellAt);
 
 /// The place at a share of a way, straight on and turning evenly by the shorter way.
 btTransform between(const btTransform& from, const btTransform& to, btScalar fraction);

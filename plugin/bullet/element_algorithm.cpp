@@ -4,11 +4,14 @@
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "bullet/body_impl.h"
+#include "bullet/cell_sweep.h"
 #include "bullet/convert.h"
 #include "bullet/world_tick.h"
 
@@ -42,22 +45,20 @@ void keepFour(std::vector<Near>& points) {
   points.resize(kPoints);
 }
 
-// Points of the elements of `own` within `margin` of `other` [m].
-std::vector<Near> nearPoints(const DestructibleBody& own, const btCollisionObject& other, double margin) {
+// Points of the elements' spheres of `own` within `margin` of `other` [m]: what each tick can afford.
+std::vector<Near> nearSpheres(const DestructibleBody& own, const btCollisionObject& other, double margin) {
   std::vector<Near> points;
-  Destruction::Impl* world = own.impl().world;
-  if (!world) return points;
-  const edem::RigidProxy proxy = world->proxyMaker.make(other);
-  const edem::Solver& solver = *world->solver;
+  Destruction::Impl& world = *own.impl().world;
+  const edem::RigidProxy proxy = world.proxyMaker.make(other);
+  const edem::Solver& solver = *world.solver;
   const double radius = solver.radius(own.id());
   Eigen::AlignedBox3d box = proxy.bounds();
   box.min().array() -= radius + margin;
   box.max().array() += radius + margin;
-  std::vector<std::uint32_t> near;
-  solver.elementsIn(own.id(), box, near);
   const Eigen::Quaterniond back = proxy.orientation.conjugate();
-  for (const std::uint32_t i : near) {
+  for (const std::uint32_t i : own.impl().shape->elementsNear(toBullet(box.min()), toBullet(box.max()))) {
     const Eigen::Vector3d at = solver.position(own.id(), i);
+    if (!box.contains(at)) continue;
     for (const edem::Collider& part : proxy.parts) {
       const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position));
       if (s.distance - radius > margin) continue;
@@ -65,6 +66,48 @@ std::vector<Near> nearPoints(const DestructibleBody& own, const btCollisionObjec
       points.push_back({at - s.distance * normal, normal, s.distance - radius});
     }
   }
+  keepFour(points);
+  return points;
+}
+
+// Points where the cells of `own` are within `margin` of a shape at `place` [m].
+void addNearCells(const DestructibleBody& own, const btCollisionShape& shape, const btTransform& place,
+                  double margin, std::vector<Near>& points) {
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int c = 0; c < compound.getNumChildShapes(); ++c)
+      addNearCells(own, *compound.getChildShape(c), place * compound.getChildTransform(c), margin, points);
+    return;
+  }
+  const bool isPlane = shape.getShapeType() == STATIC_PLANE_PROXYTYPE;
+  if (!isPlane && !shape.isConvex()) return;
+  const edem::Solver& solver = *own.impl().world->solver;
+  btVector3 low, high;
+  shape.getAabb(place, low, high);
+  const btVector3 grow = btVector3(1, 1, 1) * btScalar(margin);
+  for (const std::uint32_t i : own.impl().shape->elementsNear(low - grow, high + grow)) {
+    const CellShape cell(solver.cells(own.id()), i, solver.radius(own.id()));
+    const Eigen::Vector3d at = solver.position(own.id(), i);
+    const btTransform turn(toBullet(solver.orientation(own.id(), i)));
+    btTransform about = place;
+    about.setOrigin(place.getOrigin() - toBullet(at));
+    std::optional<CellDistance> near;
+    if (isPlane)
+      near = distanceOf(static_cast<const btStaticPlaneShape&>(shape), about, cell, turn);
+    else
+      near = distanceOf(static_cast<const btConvexShape&>(shape), about, cell, turn);
+    if (!near || double(near->distance) > margin) continue;
+    const Eigen::Vector3d normal = -toEigen(near->normal);
+    const double distance = double(near->distance);
+    points.push_back({at + toEigen(near->onCell) - distance * normal, normal, distance});
+  }
+}
+
+// Changes nothing, neither in the world nor in what it keeps of shapes.
+std::vector<Near> nearCells(const DestructibleBody& own, const btCollisionObjectWrapper& other,
+                            double margin) {
+  std::vector<Near> points;
+  addNearCells(own, *other.getCollisionShape(), other.getWorldTransform(), margin, points);
   keepFour(points);
   return points;
 }
@@ -92,7 +135,10 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     result->setPersistentManifold(m_manifold);
     const double margin = m_isQuery ? double(result->m_closestPointDistanceThreshold)
                                     : double(m_manifold->getContactBreakingThreshold());
-    for (const Near& p : nearPoints(ownA ? *ownA : *ownB, ownA ? *b : *a, margin)) {
+    const DestructibleBody& own = ownA ? *ownA : *ownB;
+    if (!own.impl().world) return;
+    for (const Near& p : m_isQuery ? nearCells(own, ownA ? *second : *first, margin)
+                                   : nearSpheres(own, ownA ? *b : *a, margin)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
       result->addContactPoint(toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),

@@ -30,6 +30,10 @@ class ElementShape : public btConcaveShape {
   /// Takes where the elements are, for queries; to be called whenever they have moved. Between two calls
   /// queries change nothing: several threads may ask at once.
   void follow() { m_tree.follow(m_solver, m_body); }
+  /// Living elements whose reach may meet a box, in rising order.
+  std::vector<std::uint32_t> elementsNear(const btVector3& low, const btVector3& high) const {
+    return m_tree.in(low, high);
+  }
   /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a
   /// ball in the air that our contacts have let through.
   void setHidden(bool hidden) { m_hidden = hidden; }

@@ -231,11 +231,36 @@ TEST(Query, ContactTestTellsAndTouchesNothing) {
   ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.25), btScalar(-0.1)}));
   w.world.contactPairTest(&ghost, wall, near);
   EXPECT_GT(near.count, 0);
-  EXPECT_LT(near.deepest, -0.04 + smallWall()->radius);
-  EXPECT_GE(near.deepest, -0.04 - 1e-4);
+  EXPECT_NEAR(near.deepest, -0.04, 1e-5);
   EXPECT_EQ(w.destruction->hash(), before);
   w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
   EXPECT_TRUE(w.destruction->takeEvents().contacts.empty()) << "a query became a contact";
+}
+
+// By the plane of the wall's face, z = -0.04 m.
+TEST(Query, ContactTestTellsTheDepthInTheCells) {
+  BulletWorld w;
+  DestructibleBody* wall = w.addWall(material("concrete_soft"));
+  btBoxShape box({btScalar(0.1), btScalar(0.1), btScalar(0.1)});
+  btStaticPlaneShape plane({0, 0, 1}, btScalar(-0.035));
+  btCompoundShape compound;
+  compound.addChildShape(btTransform(btQuaternion::getIdentity(), {0, 0, btScalar(-0.3)}), &box);
+  struct Case {
+    const char* name;
+    btCollisionShape* shape;
+    double z, depth;
+  };
+  for (const Case& c : {Case{"box", &box, -0.13, 0.01}, Case{"box beyond its margin", &box, -0.09, 0.05},
+                        Case{"box in a compound", &compound, 0.17, 0.01}, Case{"plane", &plane, 0, 0.005}}) {
+    btCollisionObject ghost;
+    ghost.setCollisionShape(c.shape);
+    ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.25), btScalar(c.z)}));
+    Contacts first, second;
+    w.world.contactPairTest(&ghost, wall, first);
+    w.world.contactPairTest(wall, &ghost, second);
+    EXPECT_NEAR(first.deepest, -c.depth, 1e-4) << c.name;
+    EXPECT_NEAR(second.deepest, -c.depth, 1e-4) << c.name;
+  }
 }
 
 TEST(Query, ManifoldShowsTheBlowAndBulletLeavesItAlone) {
