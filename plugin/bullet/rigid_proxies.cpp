@@ -1,11 +1,16 @@
 #include "bullet/rigid_proxies.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
 #include <BulletCollision/CollisionShapes/btShapeHull.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/CollisionShapes/btUniformScalingShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <LinearMath/btConvexHullComputer.h>
 
@@ -70,6 +75,13 @@ std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& p
   return hull;
 }
 
+// Turns y to the axis `up`.
+Eigen::Matrix3d upright(int up) {
+  Eigen::Matrix3d turn;
+  turn << Eigen::Vector3d::Unit((up + 2) % 3), Eigen::Vector3d::Unit(up), Eigen::Vector3d::Unit((up + 1) % 3);
+  return turn;
+}
+
 }  // namespace
 
 std::shared_ptr<const edem::Hull> RigidProxies::hullOf(const btCollisionShape& shape,
@@ -80,26 +92,116 @@ std::shared_ptr<const edem::Hull> RigidProxies::hullOf(const btCollisionShape& s
   return cached.hull;
 }
 
-void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
+bool RigidProxies::addRound(const btCollisionShape& shape, edem::Collider c,
                             std::vector<edem::Collider>& parts) {
-  edem::Collider c;
-  c.place = place;
-  std::vector<Eigen::Vector3d> points;
+  using Kind = edem::Collider::Kind;
+  int up = 1;
+  switch (shape.getShapeType()) {
+    case CAPSULE_SHAPE_PROXYTYPE: {
+      const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+      c.kind = Kind::Capsule;
+      c.size = {double(capsule.getRadius()), double(capsule.getHalfHeight()), 0};
+      up = capsule.getUpAxis();
+      break;
+    }
+    case CYLINDER_SHAPE_PROXYTYPE: {
+      const auto& cylinder = static_cast<const btCylinderShape&>(shape);
+      up = cylinder.getUpAxis();
+      c.kind = Kind::Cylinder;
+      c.rounding = double(cylinder.getMargin());
+      c.size = {double(cylinder.getRadius()) - c.rounding, double(cylinder.getHalfExtentsWithoutMargin()[up]),
+                0};
+      break;
+    }
+    case CONE_SHAPE_PROXYTYPE: {
+      const auto& cone = static_cast<const btConeShape&>(shape);
+      c.kind = Kind::Cone;
+      c.rounding = double(cone.getMargin());  // Bullet's cone is larger by it all round
+      c.size = {double(cone.getRadius()), 0.5 * double(cone.getHeight()), 0};
+      up = cone.getConeUpIndex();
+      break;
+    }
+    default:
+      return false;
+  }
+  if (!(c.size.head<2>().minCoeff() >= 0) || !(c.size.x() + c.rounding > 0)) return false;
+  c.place.linear() = c.place.linear() * upright(up);
+  parts.push_back(c);
+  return true;
+}
+
+bool RigidProxies::addSpheres(const btMultiSphereShape& shape, edem::Collider c,
+                              std::vector<edem::Collider>& parts) {
+  const btVector3& scale = shape.getLocalScaling();
+  const int count = shape.getSphereCount();
+  if (count < 1 || count > 2 || scale.x() != scale.y() || scale.x() != scale.z()) return false;
+  if (count == 2 && shape.getSphereRadius(0) != shape.getSphereRadius(1)) return false;
+  const Eigen::Vector3d a = toEigen(shape.getSpherePosition(0) * scale),
+                        b = toEigen(shape.getSpherePosition(count - 1) * scale);
+  const double half = 0.5 * (b - a).norm();
+  c.kind = half > 0 ? edem::Collider::Kind::Capsule : edem::Collider::Kind::Sphere;
+  c.size = {double(shape.getSphereRadius(0) * scale.x()), half, 0};
+  c.place.translation() += c.place.linear() * (0.5 * (a + b));
+  c.place.linear() = c.place.linear() *
+                     Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), b - a).toRotationMatrix();
+  parts.push_back(c);
+  return true;
+}
+
+// False where the child is no solid in closed form: its hull is then taken with that of others.
+bool RigidProxies::addScaled(const btUniformScalingShape& shape, const edem::Collider& c,
+                             std::vector<edem::Collider>& parts) {
+  std::vector<edem::Collider> own;
+  const btConvexShape& child = *shape.getChildShape();
+  if (!addSolid(child, edem::Collider(), own)) return false;
+  const double by = double(shape.getUniformScalingFactor());
+  for (edem::Collider& part : own) {
+    part.size *= by;
+    part.rounding *= by;
+    part.place.translation() *= by;
+    part.place = c.place * part.place;
+    parts.push_back(part);
+  }
+  return true;
+}
+
+// Shapes with a signed distance in closed form, but for planes.
+bool RigidProxies::addSolid(const btCollisionShape& shape, edem::Collider c,
+                            std::vector<edem::Collider>& parts) {
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
       c.kind = edem::Collider::Kind::Sphere;
       c.size.x() = double(static_cast<const btSphereShape&>(shape).getRadius());
-      break;
+      parts.push_back(c);
+      return true;
     case BOX_SHAPE_PROXYTYPE:
       c.kind = edem::Collider::Kind::Box;
       c.size = toEigen(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
-      break;
+      parts.push_back(c);
+      return true;
+    case MULTI_SPHERE_SHAPE_PROXYTYPE:
+      return addSpheres(static_cast<const btMultiSphereShape&>(shape), c, parts);
+    case UNIFORM_SCALING_SHAPE_PROXYTYPE:
+      return addScaled(static_cast<const btUniformScalingShape&>(shape), c, parts);
+    default:
+      return addRound(shape, c, parts);
+  }
+}
+
+void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
+                            std::vector<edem::Collider>& parts) {
+  edem::Collider c;
+  c.place = place;
+  if (addSolid(shape, c, parts)) return;
+  std::vector<Eigen::Vector3d> points;
+  switch (shape.getShapeType()) {
     case STATIC_PLANE_PROXYTYPE: {
       const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
       c.kind = edem::Collider::Kind::Plane;
       c.size = toEigen(plane.getPlaneNormal());
       c.offset = double(plane.getPlaneConstant());
-      break;
+      parts.push_back(c);
+      return;
     }
     case COMPOUND_SHAPE_PROXYTYPE: {
       const auto& compound = static_cast<const btCompoundShape&>(shape);
@@ -121,11 +223,6 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
         for (int i = 0; i < sampled.numVertices(); ++i)
           points.push_back(toEigen(sampled.getVertexPointer()[i]));
       break;
-  }
-  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE || shape.getShapeType() == BOX_SHAPE_PROXYTYPE ||
-      shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
-    parts.push_back(c);
-    return;
   }
   if (points.size() >= 4) {
     c.kind = edem::Collider::Kind::Hull;

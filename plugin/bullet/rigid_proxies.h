@@ -11,6 +11,9 @@
 #include "rubble/abi.h"
 #include "rubble/error.h"
 
+class btMultiSphereShape;
+class btUniformScalingShape;
+
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
@@ -30,6 +33,13 @@ class RigidProxies {
   };
   void addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
                 std::vector<edem::Collider>& parts);
+  // Each adds what the shape is at the place of `at`, or returns false.
+  static bool addSolid(const btCollisionShape& shape, edem::Collider at, std::vector<edem::Collider>& parts);
+  static bool addRound(const btCollisionShape& shape, edem::Collider at, std::vector<edem::Collider>& parts);
+  static bool addSpheres(const btMultiSphereShape& shape, edem::Collider at,
+                         std::vector<edem::Collider>& parts);
+  static bool addScaled(const btUniformScalingShape& shape, const edem::Collider& at,
+                        std::vector<edem::Collider>& parts);
   std::shared_ptr<const edem::Hull> hullOf(const btCollisionShape& shape,
                                            const std::vector<Eigen::Vector3d>& points);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/round_surfaces.h"
+
 namespace rubble::edem {
 namespace {
 
@@ -80,6 +82,12 @@ SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
       return nearestOnBox(c.size, p);
     case Collider::Kind::Hull:
       return nearestOnHull(*c.hull, p);
+    case Collider::Kind::Capsule:
+      return nearestOnCapsule(c.size.x(), c.size.y(), p);
+    case Collider::Kind::Cylinder:
+      return nearestOnCylinder(c.size.x(), c.size.y(), p);
+    case Collider::Kind::Cone:
+      return nearestOnCone(c.size.x(), c.size.y(), p);
     case Collider::Kind::Sphere:
       break;
   }
@@ -117,6 +125,12 @@ Eigen::AlignedBox3d Collider::bounds() const {
     case Kind::Hull:
       for (const Hull::Face& face : hull->faces)
         for (const Eigen::Vector3d& v : face.vertices) local.extend(v);
+      break;
+    case Kind::Capsule:
+    case Kind::Cylinder:
+    case Kind::Cone:
+      local.max() = {size.x(), size.y() + (kind == Kind::Capsule ? size.x() : 0), size.x()};
+      local.min() = -local.max();
       break;
   }
   const Eigen::Vector3d reach =

@@ -1,4 +1,5 @@
-// The rigid surfaces that elements touch: plane, sphere, box, convex hull; signed distance in closed form.
+// The rigid surfaces that elements touch: plane, sphere, box, convex hull, capsule, cylinder, cone; signed
+// distance in closed form.
 #pragma once
 
 #include <memory>
@@ -25,15 +26,19 @@ void listCorners(Hull& hull);
 
 /// A surface in its own frame, rounded by `rounding`.
 struct Collider {
-  enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull };
+  enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull, Capsule, Cylinder, Cone };
   Kind kind = Kind::Sphere;
-  /// Half extents of a box; x is a sphere's radius; a plane's normal [m].
+  /// Half extents of a box; x is a sphere's radius; a plane's normal. Solids of revolution stand along y:
+  /// x is the radius, y half the length of a capsule's segment or half the height of the others, a cone's
+  /// apex up [m].
   Eigen::Vector3d size = Eigen::Vector3d::Ones();
   double offset = 0;    ///< a plane's: normal . x [m]
-  double rounding = 0;  ///< added all round, Bullet's collision margin of hulls [m]
+  double rounding = 0;  ///< added all round, Bullet's collision margin [m]
   std::shared_ptr<const Hull> hull;
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< in the frame of the rigid body
 
+  /// Capsule, cylinder or cone.
+  bool isRound() const { return kind == Kind::Capsule || kind == Kind::Cylinder || kind == Kind::Cone; }
   Eigen::AlignedBox3d bounds() const;  ///< in the frame of the rigid body; a plane's is infinite
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "edem/fragment_motion.h"
+#include "edem/nearest_face.h"
 
 namespace rubble::edem {
 namespace {
@@ -13,10 +14,13 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Stiffness of a corner over k_n: four of them lie on a face as a box does.
 constexpr double kCornerWeight = 0.25;
+// The same of a capsule's ends and a cone's tip: the two ends of what lies are one contact.
+constexpr double kEndWeight = 0.5;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
-// A ball of a rigid body, frame of the rigid body: a sphere, or a corner rounded by the margin.
+// A ball of a rigid body, frame of the rigid body: a sphere, an end of a capsule, or a corner rounded by the
+// margin.
 template <class Visit>
 void visitBalls(const Collider& part, Visit&& visit) {
   switch (part.kind) {
@@ -37,59 +41,18 @@ void visitBalls(const Collider& part, Visit&& visit) {
       for (const Eigen::Vector3d& at : part.hull->corners)
         visit(Eigen::Vector3d(part.place * at), part.rounding, part.hull->cornerWeight);
       return;
+    case Collider::Kind::Capsule:
+      for (const double end : {-part.size.y(), part.size.y()})
+        visit(Eigen::Vector3d(part.place * Eigen::Vector3d(0, end, 0)), part.size.x() + part.rounding,
+              kEndWeight);
+      return;
+    case Collider::Kind::Cone:
+      visit(Eigen::Vector3d(part.place * Eigen::Vector3d(0, part.size.y(), 0)), part.rounding, kEndWeight);
+      return;
+    case Collider::Kind::Cylinder:
+      return;  // all rim
   }
 }
-
-// Nearest point of a triangle [Ericson05, 5.1.5].
-Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                  const Eigen::Vector3d& c, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
-}
-
-// Nearest point of the exposed faces that a ball at `centre` sees: from inside the cell all of them, from
-// outside those whose front it is at.
-struct NearestFace {
-  double distance = kInfinity;
-  bool inside = true;
-  Eigen::Vector3d at;
-  Eigen::Vector3d normal;  // of the face
-
-  NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-              const Eigen::Vector3d& centre, double radius) {
-    const std::span<const CellFaces::Face> faces = cells.of(element);
-    for (const CellFaces::Face& f : faces) inside = inside && f.normal.dot(centre) <= f.offset;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (!exposure.faces[cells.firstFace[element] + f]) continue;
-      const CellFaces::Face& face = faces[f];
-      const double height = face.normal.dot(centre) - face.offset;
-      if (inside ? -height >= distance : height <= 0 || height >= std::min(radius, distance)) continue;
-      for (std::uint32_t t = 0; t < face.triangleCount; ++t) {
-        const auto& corners = cells.triangles[face.firstTriangle + t];
-        const Eigen::Vector3d q = nearestOnTriangle(cells.vertices[corners[0]], cells.vertices[corners[1]],
-                                                    cells.vertices[corners[2]], centre);
-        const double away = (q - centre).norm();
-        if (away >= distance) continue;
-        distance = away;
-        at = q;
-        normal = face.normal;
-      }
-    }
-  }
-};
 
 }  // namespace
 
@@ -111,6 +74,11 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
   if (exposure.count[element] > 0) {
     findPoints(cells, exposure, element, pose);
     if (balls) findBalls(cells, exposure, element, pose);
+    for (const Near& n : m_near) {
+      if (!n.part->isRound()) continue;
+      findEdges(n, cells, exposure, element, pose);
+      if (balls) findRims(n, cells, exposure, element, pose);
+    }
   }
   const double core = cells.core[element];
   if (m_nearest.distance < core)
@@ -123,7 +91,7 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
   for (const ExposedPoint& p : exposure.of(cells, element)) {
     FaceHit hit{p.at, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0};
     for (const Near& n : m_near) {
-      if (n.part->kind == Collider::Kind::Sphere) continue;
+      if (!pressesPoints(*n.part)) continue;
       // Parts are convex: none lies above the plane at the point nearest to the element's centre.
       const double above = n.normal.dot(p.at) + n.centre.distance;
       if (-above <= hit.depth) continue;
@@ -137,10 +105,23 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       hit.normal = s.normal;
     }
     if (!(hit.depth > 0)) continue;
-    hit.area = p.area / cells.unit;
-    hit.weight = -hit.area.dot(hit.normal);
+    const Eigen::Vector3d area = p.area / cells.unit;
+    hit.weight = -area.dot(hit.normal);
+    hit.turning = area.cross(hit.normal);
     if (hit.weight > 0) m_hits.push_back(hit);
   }
+}
+
+bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                        const Eigen::Vector3d& centre, double radius, FaceHit& hit) {
+  const NearestFace face(cells, exposure, element, centre, radius);
+  const double depth = face.inside ? radius + face.distance : radius - face.distance;
+  if (!(depth > 0) || !std::isfinite(face.distance)) return false;
+  Eigen::Vector3d normal = -face.normal;
+  if (face.distance > 1e-9 * cells.reach[element])  // on the face the direction is rounding
+    normal = (face.inside ? centre - face.at : face.at - centre) / face.distance;
+  hit = {face.at, normal, Eigen::Vector3d::Zero(), depth, 0};
+  return true;
 }
 
 void FaceTouch::findBalls(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
@@ -151,13 +132,10 @@ void FaceTouch::findBalls(const CellFaces& cells, const Exposure& exposure, std:
       const double within = cells.reach[element] + radius;
       if (from.squaredNorm() >= within * within) return;
       const Eigen::Vector3d c = pose.turn.transpose() * from;
-      const NearestFace face(cells, exposure, element, c, radius);
-      const double depth = face.inside ? radius + face.distance : radius - face.distance;
-      if (!(depth > 0) || !std::isfinite(face.distance)) return;
-      Eigen::Vector3d normal = -face.normal;
-      if (face.distance > 1e-9 * cells.reach[element])  // on the face the direction is rounding
-        normal = (face.inside ? c - face.at : face.at - c) / face.distance;
-      m_hits.push_back({face.at, normal, Eigen::Vector3d::Zero(), depth, weight});
+      FaceHit hit;
+      if (!ballHit(cells, exposure, element, c, radius, hit)) return;
+      hit.weight = weight;
+      m_hits.push_back(hit);
     });
   }
 }
@@ -180,8 +158,7 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     damping += damped * hit.normal;
     elasticTorque += pushed * lever;
     dampingTorque += damped * lever;
-    // A turned face has another share against the surface, and so another energy.
-    const Eigen::Vector3d turned = 0.5 * law.stiffness * depth * depth * hit.area.cross(hit.normal);
+    const Eigen::Vector3d turned = 0.5 * law.stiffness * depth * depth * hit.turning;
     elasticTorque += turned;
     dampingTorque -= (1 - kept) * turned;
     energy += 0.5 * stiffness * depth * depth;
@@ -209,6 +186,10 @@ double ballWeights(const RigidProxy& proxy, const Eigen::Vector3d& at, double re
       const double within = reach + radius;
       if ((centre - at).squaredNorm() < within * within) sum += weight;
     });
+    for (const Rim& rim : Rims(part)) {
+      const double within = reach + rim.radius + part.rounding;
+      if ((rim.centre - at).squaredNorm() < within * within) sum += 1 + kRimWeight;  // its corners are 1
+    }
   }
   return sum;
 }

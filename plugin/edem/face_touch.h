@@ -7,17 +7,18 @@
 #include "edem/collider.h"
 #include "edem/contact.h"
 #include "edem/rigid_proxy.h"
+#include "edem/round_touch.h"
 
 namespace rubble::edem {
 
 /// A point of an element that is in a rigid body, or a point of a rigid body that is in an element. It acts
 /// with the energy weight k_n depth^2 / 2. Axes of the element at rest, about its centre.
 struct FaceHit {
-  Eigen::Vector3d at;      ///< [m]
-  Eigen::Vector3d normal;  ///< unit, out of the rigid body
-  Eigen::Vector3d area;    ///< vector area over h^2 whose share against `normal` is the weight; or zero
-  double depth;            ///< > 0 [m]
-  double weight;           ///< stiffness over k_n
+  Eigen::Vector3d at;       ///< [m]
+  Eigen::Vector3d normal;   ///< unit, out of the rigid body
+  Eigen::Vector3d turning;  ///< its weight falls by this as the element turns [-]
+  double depth;             ///< > 0 [m]
+  double weight;            ///< stiffness over k_n
 };
 
 /// An element in the frame of a rigid body.
@@ -33,8 +34,10 @@ class FaceTouch {
   /// of its parts [m]. Notes which parts are within `reach`.
   double approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach);
   /// The hits at those parts.
-  ///   - Points of exposed faces in planes, boxes and hulls.
-  ///   - Spheres, and corners of boxes and hulls, at the nearest point of the exposed faces.
+  ///   - Points of exposed faces in planes, boxes, hulls, cylinders and cones.
+  ///   - Spheres, ends of capsules, and corners of boxes and hulls, at the nearest point of the exposed
+  ///   faces.
+  ///   - Edges of exposed faces across capsules, cylinders and cones, and rims of these in the faces.
   ///   - The element's core.
   /// `balls`: false where no sphere or corner is near.
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
@@ -45,8 +48,15 @@ class FaceTouch {
   void visitFacing(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                    const ElementPose& pose, Visit&& visit) const {
     for (const Near& n : m_near) {
-      if (n.part->kind == Collider::Kind::Sphere) continue;
       const Eigen::Vector3d normal = pose.turn.transpose() * n.centre.normal;
+      if (n.part->isRound()) {
+        visitEdges(cells, exposure, element,
+                   [&](const CellFaces::Face& face, std::uint32_t from, std::uint32_t) {
+                     if (face.normal.dot(normal) < 0)
+                       visit(kEdgeWeight, normal, Eigen::Vector3d(cells.vertices[from].cross(normal)));
+                   });
+      }
+      if (!pressesPoints(*n.part)) continue;
       for (const ExposedPoint& p : exposure.of(cells, element)) {
         const double facing = -p.area.dot(normal);
         if (facing > 0) visit(facing / cells.unit, normal, Eigen::Vector3d(p.at.cross(normal)));
@@ -63,6 +73,18 @@ class FaceTouch {
 
   void findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                   const ElementPose& pose);
+  // In round_touch.cpp.
+  void findEdges(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                 const ElementPose& pose);
+  void findRims(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                const ElementPose& pose);
+  void findRimCorners(const Rim& rim, double rounding, const CellFaces& cells, const Exposure& exposure,
+                      std::uint32_t element);
+  void findRimDeepest(const Rim& rim, double rounding, const CellFaces& cells, const Exposure& exposure,
+                      std::uint32_t element);
+  // The hit of a ball, axes of the element, but for its weight.
+  static bool ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                      const Eigen::Vector3d& centre, double radius, FaceHit& hit);
   void findBalls(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                  const ElementPose& pose);
 

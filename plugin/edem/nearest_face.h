@@ -1,0 +1,22 @@
+// Where a ball of a rigid body meets the exposed faces of an element.
+#pragma once
+
+#include <limits>
+
+#include "edem/cell_faces.h"
+
+namespace rubble::edem {
+
+/// Nearest point of the exposed faces that a ball at `centre` sees: from inside the cell all of them, from
+/// outside those whose front it is at. Axes of the element at rest, about its centre.
+struct NearestFace {
+  NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+              const Eigen::Vector3d& centre, double radius);
+
+  double distance = std::numeric_limits<double>::infinity();  ///< infinite: it sees none [m]
+  bool inside = true;                                         ///< the cell
+  Eigen::Vector3d at;                                         ///< [m]
+  Eigen::Vector3d normal;                                     ///< of the face
+};
+
+}  // namespace rubble::edem
