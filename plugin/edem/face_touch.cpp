@@ -19,6 +19,13 @@ constexpr double kEndWeight = 0.5;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
+// How flat a cylinder or a cone is where it has the normal (axes of the element): 1 at an end. A mantle is
+// met by edges.
+double flatShare(const Collider& part, const ElementPose& pose, const Eigen::Vector3d& normal) {
+  const double along = normal.dot(pose.turn.transpose() * part.place.linear().col(1));
+  return part.kind == Collider::Kind::Cone && along > 0 ? 0 : along * along;
+}
+
 // A ball of a rigid body, frame of the rigid body: a sphere, an end of a capsule, or a corner rounded by the
 // margin.
 template <class Visit>
@@ -90,6 +97,7 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
                            const ElementPose& pose) {
   for (const ExposedPoint& p : exposure.of(cells, element)) {
     FaceHit hit{p.at, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0};
+    const Collider* part = nullptr;
     for (const Near& n : m_near) {
       if (!pressesPoints(*n.part)) continue;
       // Parts are convex: none lies above the plane at the point nearest to the element's centre.
@@ -103,9 +111,11 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       if (-s.distance <= hit.depth) continue;
       hit.depth = -s.distance;
       hit.normal = s.normal;
+      part = n.part;
     }
     if (!(hit.depth > 0)) continue;
-    const Eigen::Vector3d area = p.area / cells.unit;
+    Eigen::Vector3d area = p.area / cells.unit;
+    if (part->isRound()) area *= flatShare(*part, pose, hit.normal);
     hit.weight = -area.dot(hit.normal);
     hit.turning = area.cross(hit.normal);
     if (hit.weight > 0) m_hits.push_back(hit);

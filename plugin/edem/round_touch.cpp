@@ -66,36 +66,30 @@ Rims::Rims(const Collider& part) {
                  part.size.x()};
 }
 
-// An edge counts by how far it lies across the generator that it meets: one along it, or under a flat end,
-// has no deepest point.
+// An edge counts by how far the axis lies across it in the plane of its face: one along it, or under a flat
+// end, has no deepest point.
 void FaceTouch::findEdges(const Near& near, const CellFaces& cells, const Exposure& exposure,
                           std::uint32_t element, const ElementPose& pose) {
   const Collider& part = *near.part;
   const Eigen::Vector3d axis = pose.turn.transpose() * part.place.linear().col(1);
-  visitEdges(
-      cells, exposure, element, [&](const CellFaces::Face& face, std::uint32_t from, std::uint32_t to) {
-        const Eigen::Vector3d &a = cells.vertices[from], &b = cells.vertices[to];
-        const double length = (b - a).norm();
-        // No part lies above the plane at the point nearest to the element's centre.
-        if (std::min(near.normal.dot(a), near.normal.dot(b)) + near.centre.distance >= 0) return;
-        const DeepestPoint deepest = deepestOn(part, pose.at + pose.turn * a, pose.at + pose.turn * b);
-        if (deepest.surface.distance >= 0) return;
-        FaceHit hit;
-        hit.at = a + deepest.share * (b - a);
-        hit.normal = pose.turn.transpose() * deepest.surface.normal;
-        hit.depth = -deepest.surface.distance;
-        const double facing = -face.normal.dot(hit.normal);
-        if (!(facing > 0)) return;
-        const Eigen::Vector3d along = (b - a) / length;
-        const Eigen::Vector3d generator = part.kind == Collider::Kind::Capsule
-                                              ? axis
-                                              : Eigen::Vector3d(axis - axis.dot(hit.normal) * hit.normal);
-        const Eigen::Vector3d across = along.cross(generator);
-        hit.weight = kEdgeWeight * facing * across.squaredNorm();
-        hit.turning = kEdgeWeight * (2 * facing * along.dot(generator) * across +
-                                     across.squaredNorm() * face.normal.cross(hit.normal));
-        if (hit.weight > 0) m_hits.push_back(hit);
-      });
+  visitEdges(cells, exposure, element,
+             [&](const CellFaces::Face& face, std::uint32_t from, std::uint32_t to) {
+               const Eigen::Vector3d &a = cells.vertices[from], &b = cells.vertices[to];
+               // No part lies above the plane at the point nearest to the element's centre.
+               if (std::min(near.normal.dot(a), near.normal.dot(b)) + near.centre.distance >= 0) return;
+               const DeepestPoint deepest = deepestOn(part, pose.at + pose.turn * a, pose.at + pose.turn * b);
+               if (deepest.surface.distance >= 0) return;
+               FaceHit hit;
+               hit.at = a + deepest.share * (b - a);
+               hit.normal = pose.turn.transpose() * deepest.surface.normal;
+               hit.depth = -deepest.surface.distance;
+               if (face.normal.dot(hit.normal) >= 0) return;
+               const Eigen::Vector3d across = face.normal.cross(b - a).normalized();
+               const double share = across.dot(axis);
+               hit.weight = kEdgeWeight * share * share;
+               hit.turning = -2 * kEdgeWeight * share * across.cross(axis);
+               if (hit.weight > 0) m_hits.push_back(hit);
+             });
 }
 
 void FaceTouch::findRims(const Near& near, const CellFaces& cells, const Exposure& exposure,
