@@ -19,11 +19,14 @@ constexpr double kEndWeight = 0.5;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
-// How flat a cylinder or a cone is where it has the normal (axes of the element): 1 at an end. A mantle is
-// met by edges.
-double flatShare(const Collider& part, const ElementPose& pose, const Eigen::Vector3d& normal) {
-  const double along = normal.dot(pose.turn.transpose() * part.place.linear().col(1));
-  return part.kind == Collider::Kind::Cone && along > 0 ? 0 : along * along;
+// Normal of the flat end of a cylinder or a cone that a point is at, axes of the element. What points weigh
+// against that changes by turns alone: with the normal's own changes it would have no energy. A mantle is met
+// by edges.
+Eigen::Vector3d endNormal(const Collider& part, const ElementPose& pose, const Eigen::Vector3d& at) {
+  const Eigen::Vector3d axis = part.place.linear().col(1);
+  const bool top = part.kind == Collider::Kind::Cylinder &&
+                   axis.dot(pose.at + pose.turn * at - part.place.translation()) > 0;
+  return pose.turn.transpose() * (top ? axis : Eigen::Vector3d(-axis));
 }
 
 // A ball of a rigid body, frame of the rigid body: a sphere, an end of a capsule, or a corner rounded by the
@@ -114,10 +117,10 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       part = n.part;
     }
     if (!(hit.depth > 0)) continue;
-    Eigen::Vector3d area = p.area / cells.unit;
-    if (part->isRound()) area *= flatShare(*part, pose, hit.normal);
-    hit.weight = -area.dot(hit.normal);
-    hit.turning = area.cross(hit.normal);
+    const Eigen::Vector3d area = p.area / cells.unit;
+    const Eigen::Vector3d facing = part->isRound() ? endNormal(*part, pose, p.at) : hit.normal;
+    hit.weight = -area.dot(facing);
+    hit.turning = area.cross(facing);
     if (hit.weight > 0) m_hits.push_back(hit);
   }
 }

@@ -15,7 +15,7 @@ namespace rubble::edem {
 /// with the energy weight k_n depth^2 / 2. Axes of the element at rest, about its centre.
 struct FaceHit {
   Eigen::Vector3d at;       ///< [m]
-  Eigen::Vector3d normal;   ///< unit, out of the rigid body
+  Eigen::Vector3d normal;   ///< out of the rigid body: unit, shorter across a ridge of its distance
   Eigen::Vector3d turning;  ///< its weight falls by this as the element turns [-]
   double depth;             ///< > 0 [m]
   double weight;            ///< stiffness over k_n
@@ -43,18 +43,18 @@ class FaceTouch {
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
             bool balls);
   std::span<const FaceHit> hits() const { return m_hits; }
-  /// visit(weight, normal, lever [m]) for every exposed point that looks at a part that approach() noted.
+  /// visit(weight, normal, lever [m]) for every exposed point that looks at a part that approach() noted,
+  /// and every edge on the side of a round one.
   template <class Visit>
   void visitFacing(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                    const ElementPose& pose, Visit&& visit) const {
     for (const Near& n : m_near) {
       const Eigen::Vector3d normal = pose.turn.transpose() * n.centre.normal;
       if (n.part->isRound()) {
-        visitEdges(cells, exposure, element,
-                   [&](const CellFaces::Face& face, std::uint32_t from, std::uint32_t) {
-                     if (face.normal.dot(normal) < 0)
-                       visit(kEdgeWeight, normal, Eigen::Vector3d(cells.vertices[from].cross(normal)));
-                   });
+        visitEdges(cells, exposure, element, [&](const CellFaces::Face&, std::uint32_t from, std::uint32_t) {
+          const Eigen::Vector3d& at = cells.vertices[from];
+          if (at.dot(normal) < 0) visit(kEdgeWeight, normal, Eigen::Vector3d(at.cross(normal)));
+        });
       }
       if (!pressesPoints(*n.part)) continue;
       for (const ExposedPoint& p : exposure.of(cells, element)) {

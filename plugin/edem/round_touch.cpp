@@ -12,8 +12,8 @@ namespace {
 
 // Below this share of its axis across a face, a rim has no deepest point there.
 constexpr double kAlong = 1e-6;
-// Halvings of an edge: to a float's rounding of a cell's size.
-constexpr int kMostHalvings = 24;
+// Steps to the deepest point of an edge: a third are halvings, to 1e-5 of its length at a ridge.
+constexpr int kMostSteps = 48;
 
 struct DeepestPoint {
   double share;  // of the way from the edge's first end
@@ -21,38 +21,43 @@ struct DeepestPoint {
 };
 
 // Deepest point of an edge in a collider. The signed distance of a convex body is convex, so its slope rises
-// along the edge: where that is zero, by the rule of false position [Illinois].
+// along the edge: where that is zero, by the rule of false position [Illinois]. At a ridge of the distance
+// the slope jumps; of the normals on both sides that share is taken which does not push along the edge, the
+// gradient of the depth.
 DeepestPoint deepestOn(const Collider& part, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d way = to - from;
   const auto at = [&](double share) { return nearest(part, from + share * way); };
+  const auto slopeOf = [&](const DeepestPoint& p) { return p.surface.normal.dot(way); };
   DeepestPoint low{0, at(0)}, high{1, at(1)};
-  double lowSlope = low.surface.normal.dot(way), highSlope = high.surface.normal.dot(way);
+  double lowSlope = slopeOf(low), highSlope = slopeOf(high);
   if (lowSlope >= 0) return low;
   if (highSlope <= 0) return high;
   const double flat = 1e-10 * way.norm();
   int side = 0;
-  DeepestPoint best = low;
-  for (int n = 0; n < kMostHalvings; ++n) {
+  for (int n = 0; n < kMostSteps; ++n) {
     // At a jump of the slope false position creeps; every third step halves.
     const double share = n % 3 == 2
                              ? 0.5 * (low.share + high.share)
                              : low.share - lowSlope * (high.share - low.share) / (highSlope - lowSlope);
-    best = {share, at(share)};
-    const double slope = best.surface.normal.dot(way);
-    if (std::abs(slope) < flat) break;
+    const DeepestPoint next{share, at(share)};
+    const double slope = slopeOf(next);
+    if (std::abs(slope) < flat) return next;
     if (slope < 0) {
-      low = best;
+      low = next;
       lowSlope = slope;
       if (side < 0) highSlope *= 0.5;
       side = -1;
     } else {
-      high = best;
+      high = next;
       highSlope = slope;
       if (side > 0) lowSlope *= 0.5;
       side = 1;
     }
   }
-  return best;
+  const double down = -slopeOf(low), up = slopeOf(high);
+  low.surface.normal = (up * low.surface.normal + down * high.surface.normal) / (up + down);
+  low.surface.distance = std::min(low.surface.distance, high.surface.distance);
+  return low;
 }
 
 }  // namespace
@@ -83,7 +88,6 @@ void FaceTouch::findEdges(const Near& near, const CellFaces& cells, const Exposu
                hit.at = a + deepest.share * (b - a);
                hit.normal = pose.turn.transpose() * deepest.surface.normal;
                hit.depth = -deepest.surface.distance;
-               if (face.normal.dot(hit.normal) >= 0) return;
                const Eigen::Vector3d across = face.normal.cross(b - a).normalized();
                const double share = across.dot(axis);
                hit.weight = kEdgeWeight * share * share;
