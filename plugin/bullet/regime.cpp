@@ -63,6 +63,7 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
   own.state = DestructibleBody::Impl::State::Whole;
   ++wholes;
   bullet::beRigid(body, bodyDef.transform * toBullet(own.whole.frame));
+  if (!def.sleep) body.setActivationState(DISABLE_DEACTIVATION);
   if (own.held) return;
   body.setLinearVelocity(bodyDef.velocity);
   body.setAngularVelocity(bodyDef.spin);

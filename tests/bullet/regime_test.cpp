@@ -182,7 +182,9 @@ TEST(Regime, CratesRestOnASlab) {
     if (upper > 0) crates.push_back(w.add(upper, crate, {0, btScalar(0.4), 0}));
     for (int tick = 0; tick < int(4 * rate); ++tick) w.world.stepSimulation(1 / rate, 1, 1 / rate);
     EXPECT_FALSE(slab->isActive());
-    if (destructible) { EXPECT_TRUE(DestructibleBody::upcast(slab)->isWhole()); }
+    if (destructible) {
+      EXPECT_TRUE(DestructibleBody::upcast(slab)->isWhole());
+    }
     std::vector<double> all;
     for (const btRigidBody* c : crates) {
       EXPECT_FALSE(c->isActive()) << rate << " Hz, " << lower << " and " << upper << " kg";
@@ -250,6 +252,35 @@ TEST(Regime, ForcesVelocitiesAndTransformsAreTheApplications) {
   std::vector<ElementPose> poses(block->asset()->elementCount());
   block->poses(poses);
   EXPECT_NEAR(double(poses[0].position.y()), 5 - 0.025, 1e-3);
+}
+
+TEST(Regime, NothingSleepsWhereSleepIsOff) {
+  DestructionDef definition;
+  definition.sleep = false;
+  BulletWorld w(definition);
+  const DestructibleBody* block = w.destruction->addBody(blockDef({2, 2, 2}, {0, 0, 0}));
+  for (int tick = 0; tick < 240; ++tick) w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_FALSE(block->isAsleep());
+  EXPECT_TRUE(block->isWhole());
+}
+
+// In any order, and in the tick of a blow too.
+TEST(Regime, WholeBodiesAreRemovedAsOthersAre) {
+  BulletWorld w;
+  DestructibleBody* first = w.destruction->addBody(blockDef({2, 2, 2}, {0, 0, 0}));
+  DestructibleBody* second = w.destruction->addBody(blockDef({2, 2, 2}, {0, btScalar(0.1), 0}));
+  w.destruction->strike(first);
+  w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_FALSE(first->isWhole());
+  EXPECT_TRUE(second->isWhole());
+  w.world.removeRigidBody(second);
+  delete second;
+  w.world.stepSimulation(btScalar(1) / 60, 1);
+  w.destruction->removeBody(first);
+  w.world.stepSimulation(btScalar(1) / 60, 1);
+  EXPECT_TRUE(w.destruction->bodies().empty());
+  EXPECT_LT(std::abs(w.destruction->ledger().massError), 1e-9);
+  w.destruction->addBody(blockDef({2, 2, 2}, {0, 0, 0}));
 }
 
 TEST(Regime, ASolidThatIsNotConvexStaysElementsAndThatIsSaid) {
