@@ -23,7 +23,7 @@ constexpr double kLeastCellShare = 1e-6;
 constexpr float kUnitTolerance = 1e-4f;
 // Of a quaternion in doubles: far above their rounding, and far below what a force would show.
 constexpr double kUnitQuaternion = 1e-9;
-constexpr double kTolerance = 1e-6;  // for sums of up to ten million doubles
+constexpr double kSumTolerance = 1e-6;  // for sums of up to ten million doubles
 
 template <class Vector>
 void checkPlace(const Vector& place, const char* array, std::size_t at, const char* field) {
@@ -69,7 +69,7 @@ void checkRadius(const Asset& asset, const AssetScale& scale) {
 
 void checkElements(const Asset& asset, const AssetScale& scale) {
   const double ball = ballVolume(asset.radius);
-  const double most = scale.bounds.volume() * (1 + kTolerance);
+  const double most = scale.bounds.volume() * (1 + kSumTolerance);
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(asset.radius);
   const Eigen::AlignedBox3d grown(scale.bounds.min() - reach, scale.bounds.max() + reach);
   for (std::size_t i = 0; i < asset.elementCount(); ++i) {
@@ -85,7 +85,7 @@ void checkElements(const Asset& asset, const AssetScale& scale) {
       refuseAsset("gyrations[", i, "] is ", asset.gyrations[i], " m^2; allowed: above 0");
   }
   const double sum = asset.volume();
-  const double least = double(asset.elementCount()) * ball / (1 + kTolerance);
+  const double least = double(asset.elementCount()) * ball / (1 + kSumTolerance);
   if (!(sum >= least && sum <= most))
     refuseAsset("volumes add up to ", sum, " m^3; allowed: ", least, " to ", most,
                 ", the volume of the elements to that of the bounds");

@@ -7,7 +7,7 @@ namespace rubble::base {
 namespace {
 
 // Of volumes, gyrations and areas, beside the rounding of the vertices: floats hold the areas.
-constexpr double kTolerance = 1e-5;
+constexpr double kShapeTolerance = 1e-5;
 // An anchor's point lies on the surface and its element within [r]; less would make its spring stiffer than
 // any other.
 constexpr double kLeastAnchorDistance = 1e-3;
@@ -48,9 +48,9 @@ CellShape measure(const Asset& asset, const AssetScale& scale, std::size_t i) {
 
 void checkElement(const Asset& asset, const CellShape& shape, std::size_t i) {
   const double volume = asset.volumes[i];
-  if (!(std::abs(volume - shape.volume) <= kTolerance * volume + shape.volumeSlack))
+  if (!(std::abs(volume - shape.volume) <= kShapeTolerance * volume + shape.volumeSlack))
     refuseAsset("volumes[", i, "] is ", volume, " m^3; allowed: what its cell's triangles enclose, ",
-                shape.volume, " +- ", kTolerance * volume + shape.volumeSlack);
+                shape.volume, " +- ", kShapeTolerance * volume + shape.volumeSlack);
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(asset.radius);
   if (!Eigen::AlignedBox3d(shape.box.min() - reach, shape.box.max() + reach).contains(asset.positions[i]))
     refuseAsset("positions[", i, "] is (", asset.positions[i].transpose(),
@@ -58,8 +58,8 @@ void checkElement(const Asset& asset, const CellShape& shape, std::size_t i) {
                 "cell's bounds");
   // A third of the trace of the inertia is two thirds of the mean square distance from the centroid. That is
   // least in a ball, 3/5 R^2, and in a box with the diagonal D at most D^2/4.
-  const double least = 0.4 * std::pow(volume / ballVolume(1), 2.0 / 3.0) * (1 - kTolerance);
-  const double most = shape.box.diagonal().squaredNorm() / 6 * (1 + kTolerance);
+  const double least = 0.4 * std::pow(volume / ballVolume(1), 2.0 / 3.0) * (1 - kShapeTolerance);
+  const double most = shape.box.diagonal().squaredNorm() / 6 * (1 + kShapeTolerance);
   if (!(asset.gyrations[i] >= least && asset.gyrations[i] <= most))
     refuseAsset("gyrations[", i, "] is ", asset.gyrations[i], " m^2; allowed: ", least, " to ", most,
                 ", a ball of its volume to its cell's bounds");
@@ -73,7 +73,8 @@ void checkFaces(const Asset& asset, const CellShape& shape, std::size_t i) {
     const bool isOuter = face.neighbour == kNoElement;
     double& sum = isOuter ? outer : inner;
     sum += double(face.area);
-    const double most = (isOuter ? shape.outerArea : shape.innerArea) * (1 + kTolerance) + shape.areaSlack;
+    const double most =
+        (isOuter ? shape.outerArea : shape.innerArea) * (1 + kShapeTolerance) + shape.areaSlack;
     if (!(sum <= most))
       refuseAsset("faces[", f, "].area is ", face.area, " m^2, with those before it in cell ", i, ' ', sum,
                   "; allowed: what the cell's ", isOuter ? "outer" : "inner", " triangles have, ", most);
@@ -87,7 +88,7 @@ void checkFaces(const Asset& asset, const CellShape& shape, std::size_t i) {
 
 void checkAnchor(const Asset& asset, const CellShape& shape, std::size_t a) {
   const AssetAnchor& anchor = asset.anchors[a];
-  const double most = shape.outerArea * (1 + kTolerance) + shape.areaSlack;
+  const double most = shape.outerArea * (1 + kShapeTolerance) + shape.areaSlack;
   if (!(anchor.area <= most))
     refuseAsset("anchors[", a, "].area is ", anchor.area,
                 " m^2; allowed: up to what its cell's outer triangles have, ", most);

@@ -18,7 +18,7 @@ constexpr double kPlace = 0.5;
 // inertia must stay well posed for cells whose places hold all of the inertia.
 constexpr double kLeastInertia = 1e-3;
 
-void requirePositive(double value, const char* name) {
+void requireAboveZero(double value, const char* name) {
   if (!(value > 0) || value > kLargest)
     throw Error(std::string("debris: ") + name + " is " + std::to_string(value) +
                 ", must be above 0 and at most 1e12");
@@ -34,10 +34,10 @@ void requireUsable(const Eigen::Vector3d& value, const char* name) {
 }
 
 void validate(const base::CrushedElement& element, std::span<const CellFace> faces) {
-  requirePositive(element.mass, "mass of the element");
+  requireAboveZero(element.mass, "mass of the element");
   requireAtLeastZero(element.inertia, "inertia of the element");
-  requirePositive(element.volume, "volume of the cell");
-  requirePositive(element.radius, "radius of the element");
+  requireAboveZero(element.volume, "volume of the cell");
+  requireAboveZero(element.radius, "radius of the element");
   requireAtLeastZero(element.releasedEnergy, "energy released");
   requireUsable(element.restCentre, "rest place of the element");
   requireUsable(element.centre, "place of the element");
@@ -72,7 +72,7 @@ Eigen::Vector3d orbitRate(const PrincipalInertia& places, double inertia, const 
 
 Spawner::Spawner(const Material& material, const Model& model, std::uint64_t seed)
     : m_material(material), m_model(model), m_seed(seed) {
-  requirePositive(material.density, "density");
+  requireAboveZero(material.density, "density");
   requireAtLeastZero(material.friction, "friction");
   requireAtLeastZero(material.debrisSpeed, "debrisSpeed");
   validate(SizeLaw{0, material.dustRadius, material.sizeModulus});

@@ -17,9 +17,7 @@ namespace {
 constexpr std::uint32_t kPieces = 100000;  // the default budget
 constexpr std::uint32_t kAside = 400;      // pieces along x
 constexpr double kBetween = 0.1;           // from piece to piece [m]
-constexpr double kTick = 1.0 / 240;        // [s]
 constexpr int kFaces = 14;                 // of a usual cell
-const Eigen::Vector3d kDown(0, -9.81, 0);
 
 Surroundings ground() {
   return Surroundings({TestPlane{}});

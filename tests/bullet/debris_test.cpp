@@ -15,7 +15,6 @@ namespace {
 using debris::DebrisParcel;
 using debris::SurfaceImpulse;
 
-constexpr double kTick = 1.0 / 240;
 constexpr double kEdge = 0.0337;  // of one element [m]: 92 g of concrete
 
 // `count` pieces of 6.4 g at 10 m/s, one behind the other, from above and a little beside the middle.

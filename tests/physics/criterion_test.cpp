@@ -9,7 +9,7 @@ namespace {
 using edem::Vec3;
 
 constexpr double kTension = 1e6, kCompression = 10e6, kModulus = 1e9;
-constexpr double kEdge = 0.2;  // of the square face [m]
+constexpr double kFaceEdge = 0.2;  // of the square face [m]
 // k_rot [N m]: so stiff that faces break before their angle shortens the spring.
 constexpr double kRotational = 1e8;
 
@@ -86,7 +86,7 @@ TYPED_TEST(Strength, BendsUntilTheEdgeReachesTensileStrength) {
   // A square face of edge a: sigma = M (a/2) / (a^4/12) = 6 M / a^3, beside the mean stress. At half the
   // tensile strength the other half is left for bending, and under pressure more than all of it.
   for (const double normal : {0.0, 0.5 * kTension, -2 * kTension, -9 * kTension}) {
-    const double moment = (kTension - normal) * std::pow(kEdge, 3) / 6;
+    const double moment = (kTension - normal) * std::pow(kFaceEdge, 3) / 6;
     BreakMode mode{};
     for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
       EXPECT_FALSE(this->breaksAt(normal, 0, mode, turnOf(moment * (1 - 1e-4), axis))) << normal;
@@ -99,7 +99,7 @@ TYPED_TEST(Strength, BendsUntilTheEdgeReachesTensileStrength) {
 TYPED_TEST(Strength, ItsPressedEdgeAloneBreaksNothing) {
   // Mean pressure 0.9 f_c, at the pressed edge 1.8 f_c, at the other edge none.
   BreakMode mode{};
-  const double moment = 0.9 * kCompression * std::pow(kEdge, 3) / 6;
+  const double moment = 0.9 * kCompression * std::pow(kFaceEdge, 3) / 6;
   EXPECT_FALSE(this->breaksAt(-0.9 * kCompression, 0, mode, turnOf(moment, Eigen::Vector3d::UnitY())));
 }
 
@@ -110,7 +110,7 @@ TYPED_TEST(Strength, TwistsUntilTheEdgeReachesShearStrength) {
   const double mu = (kCompression - kTension) / (2 * std::sqrt(kCompression * kTension));
   for (const double pressure : {0.0, 2e6}) {
     for (const double shear : {0.0, 0.7e6}) {
-      const double torque = (c + mu * pressure - shear) * 0.208 * std::pow(kEdge, 3);
+      const double torque = (c + mu * pressure - shear) * 0.208 * std::pow(kFaceEdge, 3);
       BreakMode mode{};
       EXPECT_FALSE(
           this->breaksAt(-pressure, shear, mode, turnOf(torque * (1 - 1e-4), Eigen::Vector3d::UnitX())));

@@ -13,14 +13,14 @@ namespace rubble::test {
 namespace {
 
 constexpr int kAlong = 4;  // elements along x
-constexpr double kEdge = 0.05;
+constexpr double kElementEdge = 0.05;
 
 bool isRight(std::size_t element) {
   return element % kAlong >= kAlong / 2;
 }
 
 // Two blocks of 2 x 2 x 2 concrete cubes, 12 springs each, that lie against one another unjoined.
-edem::BodyDef halves(bool leftAnchored, double edge = kEdge) {
+edem::BodyDef halves(bool leftAnchored, double edge = kElementEdge) {
   GridAssetDef grid;
   grid.cubes = {kAlong, 2, 2};
   grid.edge = edge;
@@ -109,7 +109,7 @@ TYPED_TEST(Frames, AHalfSpinningFarAwayDoesNotBreak) {
   // Fast enough that no corner turns into the other half.
   this->run.push(true, {10, 0, 0});
   const edem::BodyView view = this->run.solver->view(0);
-  const Eigen::Vector3d spin(0, 5, 3), centre(3 * kEdge, kEdge, kEdge);
+  const Eigen::Vector3d spin(0, 5, 3), centre(3 * kElementEdge, kElementEdge, kElementEdge);
   for (std::size_t i = 0; i < view.mass.size(); ++i) {
     if (!isRight(i)) continue;
     const Eigen::Vector3d v = spin.cross(this->run.solver->position(0, i) - centre);
@@ -184,7 +184,7 @@ template <class Real>
 edem::Body<Real> tornBody() {
   GridAssetDef grid;
   grid.cubes = {kAlong, 2, 2};
-  grid.edge = kEdge;
+  grid.edge = kElementEdge;
   grid.anchored = true;
   edem::BodyDef def;
   def.asset = std::make_shared<const Asset>(gridAsset(grid));

@@ -10,13 +10,13 @@ constexpr double kCubeMass = 2400 * kCube * kCube * kCube;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 // As rough as the elements are.
-edem::RigidProxy plane(double degrees = 0) {
+edem::RigidProxy groundPlane(double degrees = 0) {
   edem::RigidProxy proxy = fixedPlane(degrees * kDegree);
   proxy.friction = 1;
   return proxy;
 }
 
-// A slab that lies on plane(degrees) and loses what shakes it.
+// A slab that lies on groundPlane(degrees) and loses what shakes it.
 edem::BodyDef slabOnSlope(double degrees, double friction) {
   edem::BodyDef def = block({2, 1, 2});
   def.transform = Eigen::AngleAxisd(-degrees * kDegree, Eigen::Vector3d::UnitZ());
@@ -50,7 +50,7 @@ TYPED_TEST(RestingContact, LooseElementIsNoFasterThanItFell) {
       def.transform.translation() = Eigen::Vector3d(0, 0.3, 0);
       def.material.contactDamping = damping;
       this->solver->addBody(def, kNoGravity);
-      std::vector<edem::RigidProxy> proxies = {plane()};
+      std::vector<edem::RigidProxy> proxies = {groundPlane()};
       this->run(2, 1 / rate, proxies);
       // Symplectic Euler falls by half a step's speed further.
       EXPECT_LT(this->fastest, std::sqrt(2 * 9.81 * 0.3) + 9.81 / rate) << rate << " Hz, " << damping;
@@ -67,7 +67,7 @@ TYPED_TEST(RestingContact, LooseElementsInAHeapGainNothing) {
   def.material.friction = 0.6;
   this->solver = makeSolver<TypeParam>(true);
   this->solver->addBody(def, kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane()};
+  std::vector<edem::RigidProxy> proxies = {groundPlane()};
   this->run(0.4, kFrame, proxies);
   EXPECT_LT(this->fastest, std::sqrt(2 * 9.81 * 0.9));  // from the top of the block to the ground
 }
@@ -76,7 +76,7 @@ TYPED_TEST(RestingContact, BlockDoesNotCreepDownASlopeItCanStandOn) {
   for (const double degrees : {12.0, 25.0}) {
     this->solver = makeSolver<TypeParam>(false);
     this->solver->addBody(slabOnSlope(degrees, 0.6), kNoGravity);  // holds to 31 degrees
-    std::vector<edem::RigidProxy> proxies = {plane(degrees)};
+    std::vector<edem::RigidProxy> proxies = {groundPlane(degrees)};
     this->run(1, kFrame, proxies);
     const Eigen::Vector3d before = this->solver->position(0, 0);
     this->run(4, kFrame, proxies);
@@ -87,7 +87,7 @@ TYPED_TEST(RestingContact, BlockDoesNotCreepDownASlopeItCanStandOn) {
 TYPED_TEST(RestingContact, BlockSlidesWhereFrictionDoesNotHold) {
   constexpr double kDegrees = 28;
   this->solver->addBody(slabOnSlope(kDegrees, 0.3), kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane(kDegrees)};
+  std::vector<edem::RigidProxy> proxies = {groundPlane(kDegrees)};
   const Eigen::Vector3d before = this->solver->position(0, 0);
   this->run(1, kFrame, proxies);
   const double way = 0.5 * 9.81 * (std::sin(kDegrees * kDegree) - 0.3 * std::cos(kDegrees * kDegree));
@@ -102,7 +102,7 @@ TYPED_TEST(RestingContact, RollingElementStops) {
   def.material.rollingFriction = 0.1;
   def.model.cellFaces = false;
   this->solver->addBody(def, kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane()};
+  std::vector<edem::RigidProxy> proxies = {groundPlane()};
   this->run(4, kFrame, proxies);
   EXPECT_LT(this->solver->maxSpeed(0), 1e-3);
   // It slides until friction, less the resistance to rolling, has spun it up, then rolls to its end. I / m
@@ -128,7 +128,7 @@ TYPED_TEST(RestingContact, OneElementStaysOnASlope) {
         def.material.contactDamping = 0.3;
         def.model.cellFaces = faces;
         this->solver->addBody(def, kNoGravity);
-        std::vector<edem::RigidProxy> proxies = {plane(degrees)};
+        std::vector<edem::RigidProxy> proxies = {groundPlane(degrees)};
         const Eigen::Vector3d normal = proxies[0].parts[0].size;
         if (onBox) {
           proxies = {fixedBox({20, 0.5, 20}, -0.5 * normal)};
@@ -229,7 +229,7 @@ double balanceAtAPlane(double restitution, double substepSafety) {
   def.material.friction = 0.6;
   def.material.restitution = restitution;
   solver->addBody(def, kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane()};
+  std::vector<edem::RigidProxy> proxies = {groundPlane()};
   proxies[0].restitution = 1;
   for (int t = 0; t < 30; ++t) solver->tick(kFrame, kNoGravity, proxies);
   const edem::Books& b = solver->books();
@@ -251,7 +251,7 @@ TYPED_TEST(RestingContact, StaticBodyGivesNoEnergy) {
 TYPED_TEST(RestingContact, WhatAContactRemembersSurvivesSleep) {
   constexpr double kDegrees = 17;
   this->solver->addBody(slabOnSlope(kDegrees, 0.6), kNoGravity);
-  std::vector<edem::RigidProxy> proxies = {plane(kDegrees)};
+  std::vector<edem::RigidProxy> proxies = {groundPlane(kDegrees)};
   this->run(2, kFrame, proxies);
   const Eigen::Vector3d before = this->solver->position(0, 0);
   for (int nap = 0; nap < 20; ++nap) {

@@ -10,7 +10,7 @@ namespace rubble::dust {
 
 namespace {
 
-using Row = std::array<float, 256 + 8>;
+using PaddedRow = std::array<float, 256 + 8>;
 
 // Courant number of the dust through a face. Between two cells of air that of the air; out of a solid at
 // least the eviction; nothing into a solid nor inside one.
@@ -107,12 +107,12 @@ double sumOf(int count, const float* values) {
 // One row along x. The density is copied with two ghosts on either side that repeat the last cell: no slope
 // at a side.
 double sweepRowX(int n, float share, const float* faces, float* density) {
-  Row d, flux;
+  PaddedRow d, flux;
   std::copy_n(density, n, d.begin() + 2);
   d[0] = d[1] = density[0];
   d[n + 2] = d[n + 3] = density[n - 1];
   // The first and last faces have no face beyond; the flux there is cut to outward, where it is not read.
-  Row c;
+  PaddedRow c;
   std::copy_n(faces, n + 1, c.begin() + 1);
   c[0] = c[n + 2] = 0;
   const float* q = d.data();
@@ -136,7 +136,7 @@ void sweepSlab(const Lattice& lattice, int axis, int fixed, float share, Fields&
   };
   // A row takes its flux when both its faces are done, and the next face still needs it and the row before as
   // they were: so rows are updated two faces late.
-  Row flux[4];
+  PaddedRow flux[4];
   for (int k = 0; k <= n + 2; ++k) {
     if (k <= n) {
       float* f = flux[k % 4].data();

@@ -13,6 +13,8 @@
 
 namespace rubble::test {
 
+inline constexpr float kStep = 1.0f / 60;  ///< [s]
+
 class Both : public GlTest {
  protected:
   void make(const DustGridDef& def) {

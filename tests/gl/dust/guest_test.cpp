@@ -8,7 +8,7 @@
 namespace rubble::test {
 namespace {
 
-constexpr float kStep = 1.0f / 60;  // [s]
+constexpr float kFrame = 1.0f / 60;  // [s]
 
 struct Fields {
   std::vector<float> density;
@@ -29,7 +29,7 @@ void step(DustGrid& grid, int number) {
   DustObstacle ball;
   ball.position = {0, 1, 0};
   ball.velocity = {2, 0, 0};
-  grid.step(kStep, sources, std::vector{ball});
+  grid.step(kFrame, sources, std::vector{ball});
 }
 
 Fields fieldsUnder(void (*disturb)()) {

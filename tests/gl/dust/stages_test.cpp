@@ -10,7 +10,6 @@ namespace {
 
 using dust::Field;
 constexpr double kRounding = 4e-6;
-constexpr float kStep = 1.0f / 60;  // [s]
 
 class DustKernel : public Both {
  protected:

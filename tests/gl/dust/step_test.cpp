@@ -5,7 +5,6 @@ namespace rubble::test {
 namespace {
 
 using dust::Field;
-constexpr float kStep = 1.0f / 60;  // [s]
 
 class DustStep : public Both {
  protected:

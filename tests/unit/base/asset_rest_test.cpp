@@ -105,10 +105,10 @@ TEST_F(RestSection, WithAChangedBitIsRefused) {
 // With a right checksum: every number of it by itself.
 TEST_F(RestSection, WithAbsurdNumbersIsRefused) {
   ASSERT_EQ(refusalOf(m_bytes), "");
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t numbers = m_bare.size() + 8, rotations = numbers + kElements * 3 * 8;
   for (std::size_t at = numbers; at < m_bytes.size(); at += 8)
-    for (const double value : {1e300, -1e300, 2.0, kInfinity, -kInfinity, std::nan("")}) {
+    for (const double value : {1e300, -1e300, 2.0, infinity, -infinity, std::nan("")}) {
       std::string bytes = m_bytes;
       setNumber(bytes, at, value);
       const std::string text = refusalOf(bytes);

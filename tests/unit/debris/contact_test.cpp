@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 using test::Surroundings;
 using test::TestPlane;
 
-constexpr double kGravity = 9.81, kRadius = 0.005;
-const Vector3d kDown(0, -kGravity, 0);
-constexpr double kTick = 1.0 / 240;
+constexpr double kRadius = 0.005;
 const TestPlane kGround{};
 
 DebrisSystemDef inVacuum(double restitution = 0.3) {

@@ -14,9 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using test::Surroundings;
 
-const Vector3d kDown(0, -9.81, 0);
-constexpr double kTick = 1.0 / 240;
-
 std::vector<DebrisParcel> cloud(std::uint32_t count, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<DebrisParcel> parcels;

@@ -15,9 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDensity = 2400, kGravity = 9.81;
-const Vector3d kDown(0, -kGravity, 0);
-constexpr double kTick = 1.0 / 240;
+constexpr double kDensity = 2400;
 
 // Force of the air on a sphere from its drag coefficient, as textbooks write it: F = C_d rho / 2 pi R^2 v^2.
 double dragForce(double radius, double speed) {

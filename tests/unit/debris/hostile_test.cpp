@@ -20,7 +20,6 @@ using test::Surroundings;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
-const Vector3d kDown(0, -9.81, 0);
 
 bool isFinite(const Motion& m) {
   return std::isfinite(m.mass) && m.linear.allFinite() && m.angular.allFinite() && std::isfinite(m.kinetic);

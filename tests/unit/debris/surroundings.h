@@ -1,4 +1,4 @@
-// Planes and balls for debris to fall on.
+// Gravity, and planes and balls for debris to fall on.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,10 @@
 #include "debris/spawn.h"
 
 namespace rubble::test {
+
+inline constexpr double kGravity = 9.81;  ///< [m/s^2]
+inline const Eigen::Vector3d kDown(0, -kGravity, 0);
+inline constexpr double kTick = 1.0 / 240;  ///< [s]
 
 struct TestPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,9 +12,6 @@
 namespace rubble::test {
 using namespace dust;
 namespace {
-
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-const float kInfinity = std::numeric_limits<float>::infinity();
 
 // What the refusal says; empty if the definition was taken.
 std::string refusal(const DustGridDef& def) {

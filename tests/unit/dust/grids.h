@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "dust/cpu/cpu_dust.h"
@@ -15,6 +16,9 @@ namespace rubble::test {
 using dust::CpuDust;
 using dust::Field;
 using dust::Lattice;
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A cube of `side` metres on the ground, in the middle of x and z.
 inline DustGridDef cube(int resolution, float side) {

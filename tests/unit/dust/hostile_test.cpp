@@ -14,8 +14,6 @@ namespace rubble::test {
 using namespace dust;
 namespace {
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-const float kInfinity = std::numeric_limits<float>::infinity();
 const float kHuge = std::numeric_limits<float>::max();
 
 // Finite everywhere, no density below zero, no air faster than the limit of each component.
