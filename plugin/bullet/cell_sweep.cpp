@@ -102,7 +102,7 @@ std::optional<CellHit> sweepShape(const btConvexShape& shape, const btTransform&
     const btScalar approach = turning - velocity.dot(near->normal);
     if (!(approach > SIMD_EPSILON)) return std::nullopt;
     const btScalar distance = near->distance + allowed;
-    if (distance <= btScalar(kTouch)) return CellHit{fraction, near->normal, near->onCell};
+    if (distance <= btScalar(kSweepTouch)) return CellHit{fraction, near->normal, near->onCell};
     fraction += distance / approach;
     if (fraction > 1) return std::nullopt;
   }

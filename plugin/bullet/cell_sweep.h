@@ -34,13 +34,13 @@ struct CellHit {
   btVector3 normal, onCell;
 };
 
-/// Where on its way from `from` to `to` a shape is first nearer to a cell than kTouch, or sinks deeper than
-/// `allowed` [m]. What overlaps from the start is hit at once, unless it moves out.
+/// Where on its way from `from` to `to` a shape is first nearer to a cell than kSweepTouch, or sinks deeper
+/// than `allowed` [m]. What overlaps from the start is hit at once, unless it moves out.
 std::optional<CellHit> sweepShape(const btConvexShape& shape, const btTransform& from, const btTransform& to,
                                   const CellShape& cell, const btTransform& cellAt, btScalar allowed);
 
 /// [m]; small beside the cells, large beside the noise of floats
-inline constexpr double kTouch = 1e-4;
+inline constexpr double kSweepTouch = 1e-4;
 
 RUBBLE_ABI_END
 }  // namespace rubble::bullet

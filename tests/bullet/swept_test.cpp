@@ -57,9 +57,9 @@ struct Range {
         ->setLinearVelocity({0, 0, btScalar(shot.speed)});
   }
   void run(int rate) {
-    constexpr double kTime = 0.1;  // [s]
+    constexpr double kFallTime = 0.1;  // [s]
     const edem::Solver& solver = *w.destruction->impl().solver;
-    for (int tick = 0; tick < int(std::lround(kTime * rate)); ++tick) {
+    for (int tick = 0; tick < int(std::lround(kFallTime * rate)); ++tick) {
       w.world.stepSimulation(btScalar(1) / btScalar(rate), 1, btScalar(1) / btScalar(rate));
       for (const DestructibleBody* pane : w.destruction->bodies()) {
         for (std::size_t i = 0; i < pane->asset()->elementCount(); ++i) {

@@ -11,14 +11,14 @@
 namespace rubble::test {
 namespace {
 
-struct Case {
+struct CellsCase {
   const char* name;
   SurfaceMesh mesh;
   std::size_t elements;
   bool shrinks = false;  // elements of the default fill do not fit, and cook() warns of that
 };
 
-std::vector<Case> cases() {
+std::vector<CellsCase> cellsCases() {
   return {{"Box", boxMesh({1, 1, 0.08}), 300},
           {"L", ell(), 300},
           {"U", you(0.5), 300},
@@ -35,7 +35,7 @@ std::vector<Case> cases() {
 class Cells : public testing::TestWithParam<std::size_t> {
  protected:
   Cells()
-      : m_case(cases()[GetParam()]),
+      : m_case(cellsCases()[GetParam()]),
         m_asset(cook(m_case.mesh, optionsFor(m_case.elements), {}, m_warnings.log())) {
     EXPECT_EQ(m_warnings.take("do not fit; radius"), m_case.shrinks ? 1 : 0);
     if (m_case.shrinks) m_warnings.take("are thinner than the elements");
@@ -49,7 +49,7 @@ class Cells : public testing::TestWithParam<std::size_t> {
   std::size_t triangleCount(const Cell& cell) const { return cell.outerTriangles + cell.innerTriangles; }
 
   ExpectedWarnings m_warnings;
-  const Case m_case;
+  const CellsCase m_case;
   const Asset m_asset;
 };
 
@@ -153,8 +153,8 @@ TEST_P(Cells, FaceAreasCancel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, Cells, testing::Range<std::size_t>(0, cases().size()),
-                         [](const auto& solid) { return std::string(cases()[solid.param].name); });
+INSTANTIATE_TEST_SUITE_P(Solids, Cells, testing::Range<std::size_t>(0, cellsCases().size()),
+                         [](const auto& solid) { return std::string(cellsCases()[solid.param].name); });
 
 // Oracle: random points belong to their nearest element. Binomial statistics, five standard deviations.
 TEST(Cells, VolumesAreThoseOfTheNearestElement) {

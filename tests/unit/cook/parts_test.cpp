@@ -33,14 +33,14 @@ SurfaceMesh cubeOverSheets(int sheets) {
   return mesh;
 }
 
-struct Case {
+struct PartsCase {
   const char* name;
   SurfaceMesh mesh;
   std::size_t elements;
   std::size_t parts;  // by how it was made
 };
 
-std::vector<Case> cases() {
+std::vector<PartsCase> partsCases() {
   return {{"TwoCubes", twoCubes(), 200, 2},
           {"PlateAndCube", plateAndCube(0.0625), 300, 2},
           {"SlottedSlab", slottedSlab(0.01), 300, 1},
@@ -55,7 +55,7 @@ std::vector<Case> cases() {
 class Parts : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Parts, AreTiedTogetherEachAndNotToOthers) {
-  const Case solid = cases()[GetParam()];
+  const PartsCase solid = partsCases()[GetParam()];
   EXPECT_EQ(cooking::countParts(cooking::checkMesh(solid.mesh)), solid.parts);
   ExpectedWarnings warnings;
   const Asset asset = cook(solid.mesh, optionsFor(solid.elements), {}, warnings.log());
@@ -66,8 +66,8 @@ TEST_P(Parts, AreTiedTogetherEachAndNotToOthers) {
   EXPECT_EQ(countTied(asset.elementCount(), asset.springs), solid.parts);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, Parts, testing::Range<std::size_t>(0, cases().size()),
-                         [](const auto& solid) { return std::string(cases()[solid.param].name); });
+INSTANTIATE_TEST_SUITE_P(Solids, Parts, testing::Range<std::size_t>(0, partsCases().size()),
+                         [](const auto& solid) { return std::string(partsCases()[solid.param].name); });
 
 // Each sheet holds the middle of an element, which may protrude.
 TEST(Parts, ThinSheetsHaveAnElementEach) {

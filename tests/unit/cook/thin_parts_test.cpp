@@ -18,13 +18,13 @@ double farthestCorner(const Asset& asset) {
   return farthest / asset.spacing();
 }
 
-struct Case {
+struct ThinCase {
   const char* name;
   SurfaceMesh mesh;
   std::size_t elements;
 };
 
-std::vector<Case> cases() {
+std::vector<ThinCase> thinCases() {
   return {{"Table", table(0.1, 0.06), 400},
           {"TableOfFew", table(0.3, 0.06), 200},
           {"Dumbbell", dumbbell(0.05), 300},
@@ -38,7 +38,7 @@ class ThinParts : public testing::TestWithParam<std::size_t> {};
 
 // The bound that rubble/cook.h states. Without elements in the legs of the tables a cell reaches 7 and more.
 TEST_P(ThinParts, AreNowhereFarFromTheirElements) {
-  const Case solid = cases()[GetParam()];
+  const ThinCase solid = thinCases()[GetParam()];
   ExpectedWarnings warnings;
   const Asset asset = cook(solid.mesh, optionsFor(solid.elements), {}, warnings.log());
   warnings.take("elements would fill it");
@@ -47,8 +47,8 @@ TEST_P(ThinParts, AreNowhereFarFromTheirElements) {
   EXPECT_LE(farthestCorner(asset), 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, ThinParts, testing::Range<std::size_t>(0, cases().size()),
-                         [](const auto& solid) { return std::string(cases()[solid.param].name); });
+INSTANTIATE_TEST_SUITE_P(Solids, ThinParts, testing::Range<std::size_t>(0, thinCases().size()),
+                         [](const auto& solid) { return std::string(thinCases()[solid.param].name); });
 
 // Evenly spread elements stand about a spacing apart in a leg as well: 0.7 m hold at least half as many.
 TEST(ThinParts, LegsOfATableHaveElementsThatFitInside) {
