@@ -41,7 +41,12 @@ double crushedBetweenPlates(std::size_t elements, double friction) {
 }
 
 TEST(PlateStrength, APackedCubeCarriesItsStrengthBetweenRigidPlates) {
-  for (const std::size_t elements : {216u, 512u}) {
+#ifdef RUBBLE_SANITIZED
+  const std::vector<std::size_t> sizes = {216};
+#else
+  const std::vector<std::size_t> sizes = {216, 512};
+#endif
+  for (const std::size_t elements : sizes) {
     for (const double friction : {0.0, 0.6}) {
       const double share = crushedBetweenPlates(elements, friction);
       EXPECT_GT(share, 0.6) << elements << ", friction " << friction;
@@ -59,7 +64,12 @@ TEST(PlateStrength, APackedCubeCarriesAWeightPutOnAtOnce) {
     double share;  // of f_c
     bool anchored;
   };
-  for (const Case& c : {Case{0.05, false}, {0.25, false}, {0.12, true}}) {
+#ifdef RUBBLE_SANITIZED
+  const std::vector<Case> cases = {{0.05, false}};
+#else
+  const std::vector<Case> cases = {{0.05, false}, {0.25, false}, {0.12, true}};
+#endif
+  for (const Case& c : cases) {
     edem::BodyDef def;
     def.asset = packedCube(216, 1);
     def.anchored = c.anchored;
