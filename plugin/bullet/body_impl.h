@@ -23,6 +23,7 @@ struct DestructibleBody::Impl {
   State state = State::Elements;
   bullet::WholeShape whole;            ///< without a shape while the body is not to be whole
   bool held = false;                   ///< by anchors
+  int flags = 0;                       ///< Bullet's, from before the thaw
   bool struck = false;                 ///< while whole: by the application
   Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
   std::uint32_t id = 0;

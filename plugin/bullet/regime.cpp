@@ -7,6 +7,7 @@
 
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
+#include "bullet/swept_bodies.h"
 #include "bullet/thaw.h"
 #include "bullet/world_tick.h"
 
@@ -21,6 +22,15 @@ using bullet::toEigen;
 btVector3 forcedVelocity(const btRigidBody& body, const btVector3& gravity, btScalar dt) {
   return dt * (body.getInvMass() * body.getTotalForce() * body.getLinearFactor() -
                gravity * body.getLinearFactor());
+}
+
+// visit(a, b) for all pairs of objects whose bounds overlap.
+template <class Visit>
+void visitPairs(btOverlappingPairCache& cache, Visit&& visit) {
+  const btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
+  for (int p = 0; p < cache.getNumOverlappingPairs(); ++p)
+    visit(*static_cast<btCollisionObject*>(pairs[p].m_pProxy0->m_clientObject),
+          *static_cast<btCollisionObject*>(pairs[p].m_pProxy1->m_clientObject));
 }
 
 // Points that Bullet has found with the body: its solver must not see them any more.
@@ -85,7 +95,7 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
     const Sweep partner(other, dt);
     bound += partner.turning + double((sweep.velocity - partner.velocity).length());
   }
-  if (!(bound > least)) return false;
+  if (!(bound > least) || !bullet::mayTouch(world, body, other)) return false;
   placeWhole(body);
   if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body), least, dt);
   const edem::RigidProxy partner = blowMaker.make(other);
@@ -98,8 +108,6 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
 void Destruction::Impl::thawStruck(double dt) {
   if (std::exchange(lookedForBlows, true) || wholes == 0) return;
   BT_PROFILE("Rubble thaw struck");
-  btOverlappingPairCache& cache = *world.getPairCache();
-  const btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
   std::vector<DestructibleBody*> struck;
   for (DestructibleBody* body : bodies)
     if (body->isWhole() && body->impl().struck) struck.push_back(body);
@@ -108,13 +116,11 @@ void Destruction::Impl::thawStruck(double dt) {
     if (!body || !body->isWhole() || std::find(struck.begin(), struck.end(), body) != struck.end()) return;
     if (isStruck(*body, other, dt)) struck.push_back(body);
   };
-  for (int p = 0; p < cache.getNumOverlappingPairs(); ++p) {
-    auto* a = static_cast<btCollisionObject*>(pairs[p].m_pProxy0->m_clientObject);
-    auto* b = static_cast<btCollisionObject*>(pairs[p].m_pProxy1->m_clientObject);
-    if (!a->hasContactResponse() || !b->hasContactResponse() || (!a->isActive() && !b->isActive())) continue;
-    look(*a, *b);
-    look(*b, *a);
-  }
+  visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
+    if (!a.hasContactResponse() || !b.hasContactResponse() || (!a.isActive() && !b.isActive())) return;
+    look(a, b);
+    look(b, a);
+  });
   std::sort(struck.begin(), struck.end(),
             [](const DestructibleBody* a, const DestructibleBody* b) { return a->id() < b->id(); });
   for (DestructibleBody* body : struck) thaw(*body, dt);
@@ -143,16 +149,13 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   body.activate(true);
   clearManifolds(*world.getDispatcher(), body);
   // Nor may Bullet's own sweeps of this tick stop anything at it.
-  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
-  btOverlappingPairCache& cache = *world.getPairCache();
-  const btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
-  for (int p = 0; p < cache.getNumOverlappingPairs(); ++p) {
-    auto* a = static_cast<btCollisionObject*>(pairs[p].m_pProxy0->m_clientObject);
-    auto* b = static_cast<btCollisionObject*>(pairs[p].m_pProxy1->m_clientObject);
-    if (a != &body && b != &body) continue;
-    btCollisionObject* other = a == &body ? b : a;
-    if (other->hasContactResponse()) own.near.push_back(other);
-  }
+  own.flags = body.getCollisionFlags();
+  body.setCollisionFlags(own.flags | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
+    if (&a != &body && &b != &body) return;
+    btCollisionObject& other = &a == &body ? b : a;
+    if (other.hasContactResponse()) own.near.push_back(&other);
+  });
 }
 
 // Now that Bullet has moved what was in its solver.
@@ -161,7 +164,7 @@ void Destruction::Impl::finishThaws() {
     DestructibleBody::Impl& own = body->impl();
     if (own.state != DestructibleBody::Impl::State::Thawing) continue;
     own.state = DestructibleBody::Impl::State::Elements;
-    body->setCollisionFlags(body->getCollisionFlags() & ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    body->setCollisionFlags(own.flags);
     bullet::beElements(*body);
     btBroadphaseProxy* handle = body->getBroadphaseHandle();
     world.getPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());

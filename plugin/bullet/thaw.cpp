@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -15,21 +13,10 @@ constexpr double kStressShare = 0.5;
 // and in ways of this tick.
 constexpr double kReachRadii = 1.6, kReachWays = 1.2;
 
-edem::SurfacePoint nearestPart(const edem::RigidProxy& proxy, const Eigen::Vector3d& world) {
-  const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
-  edem::SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
-  for (const edem::Collider& part : proxy.parts) {
-    const edem::SurfacePoint s = edem::nearest(part, local);
-    if (s.distance < best.distance) best = s;
-  }
-  best.normal = proxy.orientation * best.normal;
-  return best;
-}
-
 // An element at x that nears the surface of `proxy` with the velocity `relative`.
 bool reaches(const edem::RigidProxy& proxy, const Eigen::Vector3d& x, const Eigen::Vector3d& relative,
              double radius, double least, double dt) {
-  const edem::SurfacePoint s = nearestPart(proxy, x);
+  const edem::SurfacePoint s = edem::nearest(proxy, x);
   const double closing = -relative.dot(s.normal);
   return closing > least && s.distance - kReachRadii * radius < kReachWays * closing * dt;
 }

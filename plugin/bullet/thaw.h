@@ -1,8 +1,6 @@
 // When a body that Bullet moves as a whole must become elements: the rule, on numbers.
 #pragma once
 
-#include <span>
-
 #include "edem/rigid_proxy.h"
 #include "edem/solver.h"
 #include "rubble/abi.h"
@@ -18,8 +16,8 @@ struct RigidMotion {
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return velocity + spin.cross(x - centre); }
 };
 
-/// Closing speed from which a blow may break a material [m/s]: it sends a stress of rho c v, and half of the
-/// tensile strength is where the weakest springs of a packing begin to break.
+/// Closing speed from which a blow is left to the elements [m/s]: that of a stress rho c v of half the
+/// tensile strength.
 double strikingSpeed(const Material& material);
 
 /// Whether something at `partner`'s surface strikes one of the elements within `dt` hard enough. A light

@@ -17,18 +17,6 @@ namespace {
 // substep follows it, beyond it its contacts are made softer.
 constexpr double kLightBodyRate = 4;
 
-// Surface nearest to a world point over all parts of a proxy.
-SurfacePoint nearestPart(const RigidProxy& proxy, const Eigen::Vector3d& world) {
-  const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
-  SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
-  for (const Collider& part : proxy.parts) {
-    const SurfacePoint s = nearest(part, local);
-    if (s.distance < best.distance) best = s;
-  }
-  best.normal = proxy.orientation * best.normal;
-  return best;
-}
-
 // Bound from above of the largest eigenvalue of a matrix that has none below 0: the Frobenius norm of its
 // fourth power, which is 6^(1/8) too large at most.
 double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
@@ -150,7 +138,7 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
     if (!body.alive[i]) return;
     if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
     const Eigen::Vector3d x = body.origin + body.position[i];
-    const double distance = nearestPart(proxy, x).distance;
+    const double distance = nearest(proxy, x).distance;
     if (distance >= (body.cells ? body.cells->reach[i] + away : reach)) return;
     Candidate candidate;
     candidate.proxy = p;
@@ -339,7 +327,7 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   if (body.cells) return touchFaces(c, body, steps, resting, out);
   const RigidProxy& proxy = m_proxies[c.proxy];
   out.x = body.origin + body.position[i];
-  const SurfacePoint surface = nearestPart(proxy, out.x);
+  const SurfacePoint surface = nearest(proxy, out.x);
   const double radius = double(body.radius);
   if (surface.distance >= radius) {
     c.memory.range = 0;

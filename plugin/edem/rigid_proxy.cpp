@@ -1,6 +1,7 @@
 #include "edem/rigid_proxy.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace rubble::edem {
 
@@ -23,6 +24,17 @@ double RigidProxy::reach() const {
     if (b.sizes().allFinite()) furthest = std::max(furthest, b.center().norm() + 0.5 * b.diagonal().norm());
   }
   return furthest;
+}
+
+SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world) {
+  const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
+  SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
+  for (const Collider& part : proxy.parts) {
+    const SurfacePoint s = nearest(part, local);
+    if (s.distance < best.distance) best = s;
+  }
+  best.normal = proxy.orientation * best.normal;
+  return best;
 }
 
 }  // namespace rubble::edem

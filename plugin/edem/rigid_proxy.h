@@ -46,4 +46,7 @@ struct RigidProxy {
   double reach() const;  ///< furthest point of its parts from the centre of mass [m]; planes count 0
 };
 
+/// The surface of all parts nearest to a place, world axes; infinitely far where there are none.
+SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world);
+
 }  // namespace rubble::edem

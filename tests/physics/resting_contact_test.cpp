@@ -152,7 +152,7 @@ TYPED_TEST(RestingContact, OneElementStaysOnASlope) {
 TYPED_TEST(RestingContact, LightPlateOnManyElementsGainsNothing) {
   edem::BodyDef def = block({20, 1, 20}, true, 0.0337);
   def.material.contactDamping = 0.3;
-#ifdef RUBBLE_SANITIZED  // the same code at every mass: 20 ticks of one take half a minute
+#ifdef RUBBLE_SANITIZED  // the same code at every mass: 15 ticks of one take 20 s
   const std::vector<double> masses = {0.1};
   const int ticks = 15;
 #else

@@ -37,7 +37,7 @@ class DestructibleBody : public btRigidBody {
   /// Sum over the living elements: mass [kg], momentum.
   double elementMass() const;
   btVector3 linearMomentum() const;
-  /// Angular momentum about their centre of mass [kg m^2/s].
+  /// Angular momentum about their centre of mass, of a whole body about Bullet's [kg m^2/s].
   btVector3 angularMomentum() const;
   bool isAsleep() const;
   /// Bullet moves it as one rigid body.

@@ -7,9 +7,9 @@ namespace rubble {
 enum class Regime {
   Elements,  ///< its elements, from the start: the reference, and the paper's letter
   /// Bullet, as one rigid body of true mass and shape: it rests, stacks, sleeps and takes forces as any other
-  /// does. The elements take over in the very tick in which something is about to strike it harder than its
-  /// weakest springs bear, with both momenta, and keep it. Only convex solids; others are elements, which is
-  /// logged. What rests on a body does not break it yet.
+  /// does. The elements take over in the very tick in which something is about to strike it with a stress of
+  /// half its tensile strength, with both momenta, and keep it. Only convex solids; others are elements,
+  /// which is logged. What rests on a body does not break it yet.
   RigidUntilStruck,
 };
 
