@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/facing.h"
 #include "edem/fragment_motion.h"
 #include "edem/nearest_face.h"
 
@@ -69,10 +70,11 @@ void visitBalls(const Collider& part, Visit&& visit) {
 double FaceTouch::approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach) {
   m_near.clear();
   m_nearest = {kInfinity, Eigen::Vector3d::UnitY()};
-  for (const Collider& part : proxy.parts) {
+  for (std::uint32_t p = 0; p < proxy.parts.size(); ++p) {
+    const Collider& part = proxy.parts[p];
     const SurfacePoint s = nearest(part, at);
     if (s.distance < m_nearest.distance) m_nearest = s;
-    if (s.distance < reach) m_near.push_back({&part, s, Eigen::Vector3d::Zero()});
+    if (s.distance < reach) m_near.push_back({&part, p, s, Eigen::Vector3d::Zero()});
   }
   return m_nearest.distance;
 }
@@ -83,23 +85,38 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
   for (Near& n : m_near) n.normal = pose.turn.transpose() * n.centre.normal;
   if (exposure.count[element] > 0) {
     findPoints(cells, exposure, element, pose);
-    if (balls) findBalls(cells, exposure, element, pose);
     for (const Near& n : m_near) {
-      if (!n.part->isRound()) continue;
-      findEdges(n, cells, exposure, element, pose);
-      if (balls) findRims(n, cells, exposure, element, pose);
+      if (balls && !hasCorners(*n.part)) findBalls(n, cells, exposure, element, pose);
+      if (n.part->isRound()) findEdges(n, cells, exposure, element, pose);
     }
   }
   const double core = cells.core[element];
   if (m_nearest.distance < core)
-    m_hits.push_back({Eigen::Vector3d::Zero(), pose.turn.transpose() * m_nearest.normal,
-                      Eigen::Vector3d::Zero(), core - m_nearest.distance, 1});
+    m_hits.push_back({Eigen::Vector3d::Zero(),
+                      pose.turn.transpose() * m_nearest.normal,
+                      Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::Zero(),
+                      core - m_nearest.distance,
+                      1,
+                      {}});
+}
+
+void FaceTouch::findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                            const ElementPose& pose) {
+  m_hits.clear();
+  if (exposure.count[element] == 0) return;
+  for (const Near& n : m_near) {
+    if (!hasCorners(*n.part)) continue;
+    findBalls(n, cells, exposure, element, pose);
+    if (n.part->isRound()) findRims(n, cells, exposure, element, pose);
+  }
 }
 
 void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                            const ElementPose& pose) {
   for (const ExposedPoint& p : exposure.of(cells, element)) {
-    FaceHit hit{p.at, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0};
+    FaceHit hit;
+    hit.at = p.at;
     const Collider* part = nullptr;
     for (const Near& n : m_near) {
       if (!pressesPoints(*n.part)) continue;
@@ -118,9 +135,17 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
     }
     if (!(hit.depth > 0)) continue;
     const Eigen::Vector3d area = p.area / cells.unit;
-    const Eigen::Vector3d facing = part->isRound() ? endNormal(*part, pose, p.at) : hit.normal;
-    hit.weight = -area.dot(facing);
-    hit.turning = area.cross(facing);
+    Eigen::Vector3d normal;
+    if (part->isRound()) {
+      normal = endNormal(*part, pose, p.at);
+      hit.weight = -area.dot(normal);
+    } else {
+      const Facing f = facing(*part, pose.at + pose.turn * p.at, pose.turn * area);
+      normal = pose.turn.transpose() * f.normal;
+      hit.weight = f.weight;
+      hit.sliding = -(pose.turn.transpose() * f.slope);
+    }
+    hit.turning = area.cross(normal);
     if (hit.weight > 0) m_hits.push_back(hit);
   }
 }
@@ -133,31 +158,35 @@ bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::u
   Eigen::Vector3d normal = -face.normal;
   if (face.distance > 1e-9 * cells.reach[element])  // on the face the direction is rounding
     normal = (face.inside ? centre - face.at : face.at - centre) / face.distance;
-  hit = {face.at, normal, Eigen::Vector3d::Zero(), depth, 0};
+  hit = {};
+  hit.at = face.at;
+  hit.normal = normal;
+  hit.depth = depth;
   return true;
 }
 
-void FaceTouch::findBalls(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                          const ElementPose& pose) {
-  for (const Near& n : m_near) {
-    visitBalls(*n.part, [&](const Eigen::Vector3d& centre, double radius, double weight) {
-      const Eigen::Vector3d from = centre - pose.at;
-      const double within = cells.reach[element] + radius;
-      if (from.squaredNorm() >= within * within) return;
-      const Eigen::Vector3d c = pose.turn.transpose() * from;
-      FaceHit hit;
-      if (!ballHit(cells, exposure, element, c, radius, hit)) return;
-      hit.weight = weight;
-      m_hits.push_back(hit);
-    });
-  }
+void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposure& exposure,
+                          std::uint32_t element, const ElementPose& pose) {
+  const bool corners = hasCorners(*near.part);
+  std::uint32_t corner = 0;
+  visitBalls(*near.part, [&](const Eigen::Vector3d& centre, double radius, double weight) {
+    ++corner;
+    const Eigen::Vector3d from = centre - pose.at;
+    const double within = cells.reach[element] + radius;
+    if (from.squaredNorm() >= within * within) return;
+    const Eigen::Vector3d c = pose.turn.transpose() * from;
+    FaceHit hit;
+    if (!ballHit(cells, exposure, element, c, radius, hit)) return;
+    hit.weight = weight;
+    if (corners) hit.corner = {near.index, corner};
+    m_hits.push_back(hit);
+  });
 }
 
-FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, double sunk,
+FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law,
                      const ElementMotion& motion, const PartingMotion& fragment, const Steps& steps) {
   for (const FaceHit& hit : hits) {
-    const double depth = hit.depth - sunk;
-    if (!(depth > 0)) continue;
+    const double depth = hit.depth;
     const double speed = -hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
     const double onset = steps.moved > 0 ? onsetShare(depth, speed, steps.moved) : 1;
     const double stiffness = hit.weight * law.stiffness;
@@ -171,7 +200,11 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     damping += damped * hit.normal;
     elasticTorque += pushed * lever;
     dampingTorque += damped * lever;
-    const Eigen::Vector3d turned = 0.5 * law.stiffness * depth * depth * hit.turning;
+    // The forces of the weight's changes.
+    const double half = 0.5 * law.stiffness * depth * depth;
+    const Eigen::Vector3d slid = half * hit.sliding, turned = half * hit.turning + hit.at.cross(slid);
+    elastic += slid;
+    damping -= (1 - kept) * slid;
     elasticTorque += turned;
     dampingTorque -= (1 - kept) * turned;
     energy += 0.5 * stiffness * depth * depth;
@@ -186,10 +219,8 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
   const double length = normal.norm();
   normal = length > 1e-9 * weight ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitY();
   total = std::fmax(0.0, normal.dot(elastic + damping));
-  for (const FaceHit& hit : hits) {
-    const double depth = hit.depth - sunk;
-    if (depth > 0) spread += kFaceSpread * hit.weight * depth / weight * normal.cross(hit.at - at).norm();
-  }
+  for (const FaceHit& hit : hits)
+    spread += kFaceSpread * hit.weight * hit.depth / weight * normal.cross(hit.at - at).norm();
 }
 
 double ballWeights(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach) {

@@ -1,6 +1,7 @@
 // Where the exposed faces of an element and a rigid body are in each other.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "edem/cell_faces.h"
@@ -11,14 +12,24 @@
 
 namespace rubble::edem {
 
+/// Names a corner of a rigid body, a tip or a point of a rim: what slides out of one cell into the next.
+struct CornerName {
+  std::uint32_t part = 0;
+  std::uint32_t corner = 0;  ///< 0: none
+  bool operator==(const CornerName&) const = default;
+};
+
 /// A point of an element that is in a rigid body, or a point of a rigid body that is in an element. It acts
 /// with the energy weight k_n depth^2 / 2. Axes of the element at rest, about its centre.
 struct FaceHit {
-  Eigen::Vector3d at;       ///< [m]
-  Eigen::Vector3d normal;   ///< out of the rigid body: unit, shorter across a ridge of its distance
-  Eigen::Vector3d turning;  ///< its weight falls by this as the element turns [-]
-  double depth;             ///< > 0 [m]
-  double weight;            ///< stiffness over k_n
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();       ///< [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< out of the rigid body: unit, shorter across a ridge
+                                                      ///< of its distance
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();  ///< its weight falls by this as the element turns [-]
+  Eigen::Vector3d sliding = Eigen::Vector3d::Zero();  ///< its weight falls by this as it moves [1/m]
+  double depth = 0;                                   ///< > 0 [m]
+  double weight = 0;                                  ///< stiffness over k_n
+  CornerName corner;                                  ///< that of the rigid body's that is in the element
 };
 
 /// An element in the frame of a rigid body.
@@ -33,16 +44,26 @@ class FaceTouch {
   /// Signed distance from `at`, the element's centre in the frame of the rigid body, to the nearest surface
   /// of its parts [m]. Notes which parts are within `reach`.
   double approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach);
-  /// The hits at those parts.
+  /// The hits at those parts, but for their corners.
   ///   - Points of exposed faces in planes, boxes, hulls, cylinders and cones.
-  ///   - Spheres, ends of capsules, and corners of boxes and hulls, at the nearest point of the exposed
-  ///   faces.
-  ///   - Edges of exposed faces across capsules, cylinders and cones, and rims of these in the faces.
+  ///   - Spheres and ends of capsules at the nearest point of the exposed faces.
+  ///   - Edges of exposed faces across capsules, cylinders and cones.
   ///   - The element's core.
   /// `balls`: false where no sphere or corner is near.
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
             bool balls);
+  /// The hits of corners of boxes and hulls, tips of cones and rims alone, at the nearest point of the
+  /// exposed faces.
+  void findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+                   const ElementPose& pose);
+  void add(const FaceHit& hit) { m_hits.push_back(hit); }
   std::span<const FaceHit> hits() const { return m_hits; }
+  /// Takes change(hit) [m] off the depth of every hit; those that have none left are hits no more.
+  template <class Change>
+  void lift(Change&& change) {
+    for (FaceHit& hit : m_hits) hit.depth -= change(std::as_const(hit));
+    std::erase_if(m_hits, [](const FaceHit& hit) { return !(hit.depth > 0); });
+  }
   /// visit(weight, normal, lever [m]) for every exposed point that looks at a part that approach() noted,
   /// and every edge on the side of a round one.
   template <class Visit>
@@ -67,6 +88,7 @@ class FaceTouch {
  private:
   struct Near {
     const Collider* part;
+    std::uint32_t index;     // of the part
     SurfacePoint centre;     // nearest to the element's centre, frame of the rigid body
     Eigen::Vector3d normal;  // of it, axes of the element
   };
@@ -78,14 +100,14 @@ class FaceTouch {
                  const ElementPose& pose);
   void findRims(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                 const ElementPose& pose);
-  void findRimCorners(const Rim& rim, double rounding, const CellFaces& cells, const Exposure& exposure,
-                      std::uint32_t element);
-  void findRimDeepest(const Rim& rim, double rounding, const CellFaces& cells, const Exposure& exposure,
-                      std::uint32_t element);
+  void findRimCorners(const Rim& rim, double rounding, CornerName first, const CellFaces& cells,
+                      const Exposure& exposure, std::uint32_t element);
+  void findRimDeepest(const Rim& rim, double rounding, CornerName name, const CellFaces& cells,
+                      const Exposure& exposure, std::uint32_t element);
   // The hit of a ball, axes of the element, but for its weight.
   static bool ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                       const Eigen::Vector3d& centre, double radius, FaceHit& hit);
-  void findBalls(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
+  void findBalls(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                  const ElementPose& pose);
 
   std::vector<Near> m_near;
@@ -119,10 +141,10 @@ struct FacePress {
   double full = 0;                                   // the same before any is withheld [N]
   double energy = 0;                                 // [J]
 
-  /// `sunk` is taken off every depth. Each hit has its share of the law's dashpot, less at a lever, where the
+  /// Each hit has its share of the law's dashpot, less at a lever, where the
   /// element is lighter, never pulls, and withholds force by the speed at which the fragment parts there.
-  FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, double sunk,
-            const ElementMotion& motion, const PartingMotion& fragment, const Steps& steps);
+  FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, const ElementMotion& motion,
+            const PartingMotion& fragment, const Steps& steps);
 };
 
 /// Sum of the weights that corners or the sphere of the body may have within `reach` of `at` (frame of the

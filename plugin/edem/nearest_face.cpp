@@ -35,7 +35,14 @@ NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::
     if (!exposure.faces[cells.firstFace[element] + f]) continue;
     const CellFaces::Face& face = faces[f];
     const double height = face.normal.dot(centre) - face.offset;
-    if (inside ? -height >= distance : height <= 0 || height >= std::min(radius, distance)) continue;
+    if (inside) {
+      if (-height >= distance) continue;
+      distance = -height;
+      at = centre - height * face.normal;
+      normal = face.normal;
+      continue;
+    }
+    if (height <= 0 || height >= std::min(radius, distance)) continue;
     for (std::uint32_t t = 0; t < face.triangleCount; ++t) {
       const auto& corners = cells.triangles[face.firstTriangle + t];
       const Eigen::Vector3d q = nearestOnTriangle(cells.vertices[corners[0]], cells.vertices[corners[1]],

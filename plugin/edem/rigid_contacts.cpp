@@ -51,6 +51,7 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
       state.moved = true;
       state.pressed = before->size;
       state.surplusNext = before->surplusNext;
+      state.corners = std::move(before->corners);
     }
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();
@@ -320,11 +321,11 @@ void RigidContacts<Real>::finish(const ContactMotion<double>& motion, const Cont
 }
 
 template <class Real>
-bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Steps& steps,
-                                RestingLoads& resting, Touch& out) {
+bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const CornerHits& corners,
+                                const Steps& steps, RestingLoads& resting, Touch& out) {
   const std::uint32_t i = c.element;
   if (!body.alive[i]) return false;
-  if (body.cells) return touchFaces(c, body, steps, resting, out);
+  if (body.cells) return touchFaces(c, body, corners, steps, resting, out);
   const RigidProxy& proxy = m_proxies[c.proxy];
   out.x = body.origin + body.position[i];
   const SurfacePoint surface = nearest(proxy, out.x);
@@ -368,24 +369,96 @@ bool RigidContacts<Real>::touch(Candidate& c, const Body<Real>& body, const Step
   return true;
 }
 
-// Depth without force: that in which faces were first seen, or in which they are because they have just been
-// exposed, for what they cannot have come in the last step of `moved` seconds. It gives way as they leave.
+// Which corners of the proxies press which elements in this substep.
 template <class Real>
-double RigidContacts<Real>::sink(Candidate& c, const Body<Real>& body, double speed, double moved) const {
+void RigidContacts<Real>::findCorners(Bodies bodies) {
+  m_cornersLeft.clear();
+  const auto moved = [](const ProxyState& s) { return s.moved; };
+  if (std::any_of(m_states.begin(), m_states.end(), moved)) {
+    const auto swap = [&] {
+      for (std::size_t p = 0; p < m_proxies.size(); ++p) {
+        if (!m_states[p].moved) continue;
+        const Motion now = motionOf(m_proxies[p]);
+        setMotion(m_proxies[p], std::exchange(m_states[p].left, now));
+      }
+    };
+    swap();
+    findCorners(bodies, m_cornersLeft);
+    swap();
+  }
+  findCorners(bodies, m_corners);
+}
+
+template <class Real>
+void RigidContacts<Real>::findCorners(Bodies bodies, CornerHits& corners) {
+  corners.clear();
+  for (const Candidate& c : m_candidates) {
+    if (!bodies[c.body]->cells || !(c.balls > 0)) continue;
+    cornersOf(c, *bodies[c.body]);
+    corners.add(c.proxy, placeOf(c), m_faces.hits());
+  }
+  corners.settle();
+}
+
+// Leaves them in m_faces.
+template <class Real>
+void RigidContacts<Real>::cornersOf(const Candidate& c, const Body<Real>& body) {
+  const ElementPose pose = poseOf(body, c.element, m_proxies[c.proxy]);
+  const double reach = body.exposure.count[c.element] > 0 ? body.cells->reach[c.element] : 0;
+  m_faces.approach(m_proxies[c.proxy], pose.at, reach);
+  m_faces.findCorners(*body.cells, body.exposure, c.element, pose);
+}
+
+// Takes the depth without force off the hits: that in which faces or corners were first seen, or in which
+// faces are because they have just been exposed, for what they cannot have come in the last step of `moved`
+// seconds. It gives way as they leave.
+template <class Real>
+void RigidContacts<Real>::sink(Candidate& c, const Body<Real>& body, const CornerHits& corners,
+                               const ElementMotion& motion, double moved) {
   double deepest = 0;
   for (const FaceHit& hit : m_faces.hits()) deepest = std::max(deepest, hit.depth);
   FaceMemory& memory = c.faces;
   const bool fresh = memory.deepest <= 0 || memory.area != body.exposure.area[c.element];
-  const double free = memory.deepest + 2 * moved * speed;
+  const double fastest = motion.centre.norm() + motion.spin.norm() * body.cells->reach[c.element];
+  const double way = 2 * moved * fastest, free = memory.deepest + way;
   if (fresh && deepest > free) memory.sunk += deepest - free;
   memory.area = body.exposure.area[c.element];
   memory.deepest = deepest;
-  return memory.sunk = std::min(memory.sunk, deepest);
+  memory.sunk = std::min(memory.sunk, deepest);
+  for (const CornerHit& h : corners.of(placeOf(c))) m_faces.add(h.hit);
+  m_faces.lift([&](const FaceHit& hit) {
+    if (hit.corner == CornerName{}) return memory.sunk;
+    const double approach = -hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
+    return sinkCorner(m_states[c.proxy], {hit.corner, body.id, c.element, hit.depth, 0}, way,
+                      std::max(0.0, approach * moved));
+  });
+}
+
+// A corner that slides from one cell into the next presses it as deep as it did, and by how much it has come
+// nearer in the last step. One that was in none has come less than `way`.
+template <class Real>
+double RigidContacts<Real>::sinkCorner(ProxyState& state, CornerMemory corner, double way, double nearer) {
+  const auto named = [&](const CornerMemory& m) { return m.name == corner.name; };
+  const auto before = std::find_if(state.cornersBefore.begin(), state.cornersBefore.end(), named);
+  const double depth = corner.pressed;
+  double sunk = depth - way;
+  if (before != state.cornersBefore.end())
+    sunk = before->body == corner.body && before->element == corner.element
+               ? before->sunk
+               : depth - before->pressed - nearer;
+  corner.sunk = std::clamp(sunk, 0.0, depth);
+  corner.pressed = depth - corner.sunk;
+  const auto now = std::find_if(state.corners.begin(), state.corners.end(), named);
+  if (now == state.corners.end())
+    state.corners.push_back(corner);
+  else
+    *now = corner;
+  return corner.sunk;
 }
 
 template <class Real>
-bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const Steps& steps,
-                                     RestingLoads& resting, Touch& out) {
+bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const CornerHits& corners,
+                                     const Steps& steps, RestingLoads& resting, Touch& out) {
   const std::uint32_t i = c.element;
   const RigidProxy& proxy = m_proxies[c.proxy];
   const CellFaces& cells = *body.cells;
@@ -406,18 +479,18 @@ bool RigidContacts<Real>::touchFaces(Candidate& c, const Body<Real>& body, const
       body.velocity[i].template cast<double>() - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
   ContactMotion<double> motion;
   motion.spin = body.spin[i].template cast<double>() - proxy.spin;
-  const double fastest = velocity.norm() + motion.spin.norm() * cells.reach[i];
+  const ElementMotion own{turn.transpose() * velocity, turn.transpose() * motion.spin,
+                          body.inertia[i] / body.mass[i]};
   const ContactLaw<double>& law = m_states[c.proxy].laws[c.body];
   const FragmentMotion& fragment = body.motions[body.motionOf[i]];
   const Eigen::Vector3d parting =
       fragment.velocityAt(out.x) - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
   out.resting = restingOf(c, body, resting);
-  const FacePress press(
-      m_faces.hits(), law, sink(c, body, fastest, steps.moved),
-      {turn.transpose() * velocity, turn.transpose() * motion.spin, body.inertia[i] / body.mass[i]},
-      {turn.transpose() * parting, turn.transpose() * (fragment.spin - proxy.spin),
-       joltOf(fragment, c.proxy, steps.next), resting.share(out.resting)},
-      {m_moved, steps.next});
+  sink(c, body, corners, own, steps.moved);
+  const FacePress press(m_faces.hits(), law, own,
+                        {turn.transpose() * parting, turn.transpose() * (fragment.spin - proxy.spin),
+                         joltOf(fragment, c.proxy, steps.next), resting.share(out.resting)},
+                        {m_moved, steps.next});
   if (!(press.weight > 0)) {
     out.slipped = lostAtParting(law, velocity, motion.spin, steps.moved, c.memory);
     return false;
@@ -506,11 +579,11 @@ bool RigidContacts<Real>::touchMoved(Candidate& c, const Body<Real>& body, const
   const Motion now = motionOf(proxy);
   Touch before;
   setMotion(proxy, m_states[c.proxy].left);
-  const bool touched = touch(c, body, steps, resting, before);
+  const bool touched = touch(c, body, m_cornersLeft, steps, resting, before);
   setMotion(proxy, now);
   if (!touched) part(c.memory);
   c.touching = touched;
-  const bool touches = touch(c, body, {0, steps.next}, resting, out);
+  const bool touches = touch(c, body, m_corners, {0, steps.next}, resting, out);
   out.slipped = before.slipped;
   const double work = out.energy - before.energy + 0.5 * kick * (out.power - before.power);
   books.bullet.work.add(work, 0);
@@ -525,8 +598,11 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
   for (ProxyState& s : m_states) {
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
+    std::swap(s.cornersBefore, s.corners);
+    s.corners.clear();
   }
   m_pushes.clear();
+  findCorners(bodies);
   m_moved = steps.moved;
   m_elastic = 0;
   for (const Kept& k : m_kept) m_elastic += k.energy;
@@ -541,7 +617,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     Touch t;
     const bool touched = c.touching;
     c.touching = m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, resting, books, t)
-                                         : touch(c, body, steps, resting, t);
+                                         : touch(c, body, m_corners, steps, resting, t);
     c.energy = t.energy;
     slipped += t.slipped;
     if (!c.touching) {
@@ -585,8 +661,12 @@ void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Restin
     if (!c.touching || !body.cells || c.faces.area == body.exposure.area[c.element]) continue;
     const Touch before = m_pushes[c.push].touch;
     take(c, body);
+    if (c.balls > 0) {
+      cornersOf(c, body);
+      m_corners.renew(c.proxy, placeOf(c), m_faces.hits());
+    }
     Touch now;
-    c.touching = touch(c, body, {0, step}, resting, now);
+    c.touching = touch(c, body, m_corners, {0, step}, resting, now);
     c.energy = now.energy;
     if (c.touching)
       add(now, c, body);

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "edem/corner_hits.h"
 #include "edem/face_touch.h"
 #include "edem/pair_lists.h"
 #include "edem/resting_loads.h"
@@ -68,9 +69,16 @@ class RigidContacts {
  private:
   // What faces remember of a rigid body beside their contact's memory.
   struct FaceMemory {
-    double deepest = 0;  // at the last instant; 0: out of it [m]
+    double deepest = 0;  // at the last instant, but for its corners; 0: out of it [m]
     double sunk = 0;     // depth without force: they were first seen as deep [m]
     double area = 0;     // exposed at the last instant [m^2]
+  };
+  // A corner of a rigid body that is in an element.
+  struct CornerMemory {
+    CornerName name;
+    std::uint32_t body, element;  // id of the body
+    double pressed;               // depth with force [m]
+    double sunk;                  // depth without: it was first seen as deep [m]
   };
   struct Candidate {
     std::uint32_t proxy, body, element;
@@ -114,11 +122,12 @@ class RigidContacts {
     double pressed = 0;  // the same in the last substep [N]
     Eigen::Vector3d listedPosition;
     Eigen::Quaterniond listedOrientation;
-    double surplusNext = 0;                // second half step of RigidProxy::surplus [J]
-    double mobility = 0;                   // sum over candidates of speed / impulse [1/kg]
-    double rate = 0;                       // the same, times the stiffness of each [1/s^2]
-    ElementRates rates;                    // of the rigid body, all candidates touching
-    std::vector<ContactLaw<double>> laws;  // by body
+    double surplusNext = 0;                            // second half step of RigidProxy::surplus [J]
+    double mobility = 0;                               // sum over candidates of speed / impulse [1/kg]
+    double rate = 0;                                   // the same, times the stiffness of each [1/s^2]
+    ElementRates rates;                                // of the rigid body, all candidates touching
+    std::vector<ContactLaw<double>> laws;              // by body
+    std::vector<CornerMemory> corners, cornersBefore;  // at this instant, at the last
   };
   struct Touch {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();  // contact point, world [m]
@@ -145,13 +154,21 @@ class RigidContacts {
   void remember(Candidate& candidate);
   void weighFaces(Candidate& candidate, const Body<Real>& body);
   ElementRates ratesOf(const Candidate& candidate, const Body<Real>& body, double& frequency2) const;
-  bool touchFaces(Candidate& candidate, const Body<Real>& body, const Steps& steps, RestingLoads& resting,
-                  Touch& out);
-  double sink(Candidate& candidate, const Body<Real>& body, double speed, double moved) const;
+  bool touchFaces(Candidate& candidate, const Body<Real>& body, const CornerHits& corners, const Steps& steps,
+                  RestingLoads& resting, Touch& out);
+  std::uint32_t placeOf(const Candidate& candidate) const {
+    return std::uint32_t(&candidate - m_candidates.data());
+  }
+  void findCorners(Bodies bodies);
+  void findCorners(Bodies bodies, CornerHits& corners);
+  void cornersOf(const Candidate& candidate, const Body<Real>& body);
+  void sink(Candidate& candidate, const Body<Real>& body, const CornerHits& corners,
+            const ElementMotion& motion, double moved);
+  static double sinkCorner(ProxyState& state, CornerMemory corner, double way, double nearer);
   static void finish(const ContactMotion<double>& motion, const ContactLoad<double>& load, Touch& out);
   double joltOf(const FragmentMotion& fragment, std::uint32_t proxy, double step) const;
-  bool touch(Candidate& candidate, const Body<Real>& body, const Steps& steps, RestingLoads& resting,
-             Touch& out);
+  bool touch(Candidate& candidate, const Body<Real>& body, const CornerHits& corners, const Steps& steps,
+             RestingLoads& resting, Touch& out);
   std::size_t restingOf(const Candidate& candidate, const Body<Real>& body, RestingLoads& resting) const;
   bool touchMoved(Candidate& candidate, const Body<Real>& body, const Steps& steps, double kick,
                   RestingLoads& resting, Books& books, Touch& out);
@@ -170,7 +187,8 @@ class RigidContacts {
   std::vector<ContactSide> m_sides;            // of the bodies, by place
   std::vector<Push> m_pushes;                  // on elements, in this substep
   FaceTouch m_faces;
-  double m_moved = 0;  // length of the step before the last accumulate [s]
+  CornerHits m_corners, m_cornersLeft;  // where the proxies are, and where the last substep left them
+  double m_moved = 0;                   // length of the step before the last accumulate [s]
   double m_elastic = 0;
   double m_lost = 0;  // energy of contacts that ended between two substeps [J]
 };

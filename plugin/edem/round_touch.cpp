@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "edem/face_touch.h"
 
@@ -99,19 +100,22 @@ void FaceTouch::findEdges(const Near& near, const CellFaces& cells, const Exposu
 void FaceTouch::findRims(const Near& near, const CellFaces& cells, const Exposure& exposure,
                          std::uint32_t element, const ElementPose& pose) {
   const double rounding = near.part->rounding;
+  // Corners of a rim are named before its deepest point; 1 is the tip of a cone.
+  CornerName first{near.index, 2};
   for (const Rim& rim : Rims(*near.part)) {
+    const CornerName name = std::exchange(first, {near.index, first.corner + kRimCorners + 1});
     const Eigen::Vector3d from = rim.centre - pose.at;
     const double within = cells.reach[element] + rim.radius + rounding;
     if (from.squaredNorm() >= within * within) continue;
     const Rim own{pose.turn.transpose() * from, pose.turn.transpose() * rim.axis,
                   pose.turn.transpose() * rim.across, rim.radius};
-    findRimCorners(own, rounding, cells, exposure, element);
-    findRimDeepest(own, rounding, cells, exposure, element);
+    findRimCorners(own, rounding, name, cells, exposure, element);
+    findRimDeepest(own, rounding, {near.index, name.corner + kRimCorners}, cells, exposure, element);
   }
 }
 
 // Corners count by how far the rim stands on a face, and lying it has none to roll over.
-void FaceTouch::findRimCorners(const Rim& rim, double rounding, const CellFaces& cells,
+void FaceTouch::findRimCorners(const Rim& rim, double rounding, CornerName first, const CellFaces& cells,
                                const Exposure& exposure, std::uint32_t element) {
   double along = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -134,13 +138,14 @@ void FaceTouch::findRimCorners(const Rim& rim, double rounding, const CellFaces&
     if (!ballHit(cells, exposure, element, at, rounding, hit)) continue;
     hit.weight = kWeight * along * along;
     hit.turning = -2 * kWeight * along * normal.cross(rim.axis);
+    hit.corner = {first.part, first.corner + std::uint32_t(corner)};
     m_hits.push_back(hit);
   }
 }
 
 // The point of a rim that is deepest under a face; of all faces the one with most energy, for what passes
 // from one to the other then does so without a jump.
-void FaceTouch::findRimDeepest(const Rim& rim, double rounding, const CellFaces& cells,
+void FaceTouch::findRimDeepest(const Rim& rim, double rounding, CornerName name, const CellFaces& cells,
                                const Exposure& exposure, std::uint32_t element) {
   const std::span<const CellFaces::Face> faces = cells.of(element);
   std::optional<FaceHit> most;
@@ -164,6 +169,7 @@ void FaceTouch::findRimDeepest(const Rim& rim, double rounding, const CellFaces&
     hit.turning = 2 * kRimWeight *
                   (along * normal.cross(rim.axis) +
                    size * rim.radius / hit.depth * hit.normal.dot(tangent) * normal.cross(tangent));
+    hit.corner = name;
     most = hit;
   }
   if (most) m_hits.push_back(*most);

@@ -42,6 +42,11 @@ inline bool pressesPoints(const Collider& part) {
   return part.kind != Collider::Kind::Sphere && part.kind != Collider::Kind::Capsule;
 }
 
+/// Whether it has corners, a tip or rims to press cells with.
+inline bool hasCorners(const Collider& part) {
+  return pressesPoints(part) && part.kind != Collider::Kind::Plane;
+}
+
 /// visit(face, from, to) for every edge of every exposed face of an element; one that two of them share comes
 /// twice.
 template <class Visit>

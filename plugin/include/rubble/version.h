@@ -18,7 +18,7 @@ struct SolverVersion {
 /// `rubble report` wrote.
 inline constexpr SolverVersion kSolverVersions[] = {
     {"float", 0xd2addf224672771a, 0x5394fd8945514067, 0x4cb3e7324b24897b},
-    {"double", 0x85ce41ca7df22158, 0xb55edb997980fe81, 0x91719f871d937ac1},
+    {"double", 0x79c82adefc56134a, 0x9a4104722d99da7a, 0x12e42b5a8587fa2a},
 };
 
 }  // namespace rubble
