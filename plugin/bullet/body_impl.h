@@ -7,6 +7,7 @@
 
 #include "bullet/coupler_constraint.h"
 #include "bullet/element_shape.h"
+#include "bullet/host_settings.h"
 #include "bullet/whole_shape.h"
 #include "debris/spawn.h"
 #include "rubble/destructible_body.h"
@@ -23,7 +24,9 @@ struct DestructibleBody::Impl {
   State state = State::Elements;
   bullet::WholeShape whole;            ///< without a shape while the body is not to be whole
   bool held = false;                   ///< by anchors
-  int flags = 0;                       ///< Bullet's, from before the thaw
+  int flags = 0;                       ///< Bullet's of collision, from before the thaw
+  bullet::HostSettings settings;       ///< from before the thaw
+  double restTime = 0;                 ///< since it was last too restless to be whole [s]
   bool struck = false;                 ///< while whole: by the application
   Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
   std::uint32_t id = 0;

@@ -36,6 +36,10 @@ void beRigid(DestructibleBody& body, const btTransform& at) {
   body.setWorldTransform(at);
   body.setInterpolationWorldTransform(at);
   body.updateInertiaTensor();
+}
+
+void beNewRigid(DestructibleBody& body, const btTransform& at) {
+  beRigid(body, at);
   body.setFriction(btScalar(std::max(0.0, body.material().friction)));
   body.setRestitution(btScalar(body.material().restitution));
   if (!body.impl().held) return;

@@ -8,10 +8,11 @@ RUBBLE_ABI_BEGIN
 
 /// Bullet does not move it: shape and motion are the elements'.
 void beElements(DestructibleBody& body);
-/// A rigid body as any other, of the shape in DestructibleBody::Impl::whole. One that anchors hold is dynamic
-/// still, without a degree of freedom: Bullet puts it into the islands of what touches it, in whose ticks we
-/// look for blows.
+/// A rigid body as any other, of the shape in DestructibleBody::Impl::whole.
 void beRigid(DestructibleBody& body, const btTransform& at);
+/// The same of a new body. One that anchors hold is dynamic still, without a degree of freedom: Bullet puts
+/// it into the islands of what touches it, in whose ticks we look for blows.
+void beNewRigid(DestructibleBody& body, const btTransform& at);
 
 RUBBLE_ABI_END
 }  // namespace rubble::bullet

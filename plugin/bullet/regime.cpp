@@ -65,14 +65,14 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
   own.whole = bullet::wholeShape(*own.asset, view.mass, view.inertia);
   own.held = bodyDef.anchored && !own.asset->anchors.empty();
   const char* reason = own.whole.shape ? nullptr : "its solid is not convex";
-  if (!reason && !solver->park(own.id)) reason = "it is not one piece";
+  if (!reason && !solver->park(own.id).has_value()) reason = "it is not one piece";
   if (reason) {
     if (def.log) def.log(LogLevel::Info, own.name + ": cannot be Bullet's until it is struck: " + reason);
     return;
   }
   own.state = DestructibleBody::Impl::State::Whole;
   ++wholes;
-  bullet::beRigid(body, bodyDef.transform * toBullet(own.whole.frame));
+  bullet::beNewRigid(body, bodyDef.transform * toBullet(own.whole.frame));
   if (!def.sleep) body.setActivationState(DISABLE_DEACTIVATION);
   if (own.held) return;
   body.setLinearVelocity(bodyDef.velocity);
@@ -143,6 +143,8 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
       arm.cross(own.whole.mass * toEigen(velocity));
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
   own.state = DestructibleBody::Impl::State::Thawing;
+  own.struck = false;
+  own.calmTime = own.restTime = 0;
   --wholes;
   own.speed = solver->maxSpeed(own.id);
   own.shape->refit(own.speed * dt);
@@ -165,6 +167,7 @@ void Destruction::Impl::finishThaws() {
     if (own.state != DestructibleBody::Impl::State::Thawing) continue;
     own.state = DestructibleBody::Impl::State::Elements;
     body->setCollisionFlags(own.flags);
+    own.settings = bullet::settingsOf(*body);
     bullet::beElements(*body);
     btBroadphaseProxy* handle = body->getBroadphaseHandle();
     world.getPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());

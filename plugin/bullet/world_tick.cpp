@@ -272,6 +272,7 @@ void Destruction::Impl::finish(double dt) {
     const base::ScopeTimer timer(times.debris);
     stepDebris(dt);
   }
+  freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
   placeWholes();

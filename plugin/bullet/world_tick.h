@@ -107,6 +107,9 @@ struct Destruction::Impl {
   void thaw(DestructibleBody& body, double dt);
   void finishThaws();
   void placeWholes();
+  /// Lends bodies that have been calm for long enough to Bullet again.
+  void freezeCalm(double dt);
+  void freeze(DestructibleBody& body);
   void followSleep();
   void updateSleep(double dt);
   DestructibleBody* bodyOf(std::uint32_t id) const;

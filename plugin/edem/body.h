@@ -132,7 +132,10 @@ struct Body {
   std::uint32_t labelledBroken = 0;  ///< brokenCount when the fragments were labelled
   std::uint32_t anchorsIntact = 0;
   bool asleep = false;
-  bool parked = false;         ///< lent to the host, asleep too (parking.h)
+  bool parked = false;  ///< lent to the host, asleep too (parking.h)
+  /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
+  std::vector<Vec3<Real>> parkedAt;
+  std::vector<Quat<Real>> parkedTurn;
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
 
   // Derived from the frames; written by turnRest.

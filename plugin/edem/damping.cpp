@@ -2,47 +2,11 @@
 
 #include <cassert>
 #include <cmath>
-#include <map>
+
+#include "edem/rigid_motion.h"
 
 namespace rubble::edem {
 namespace {
-
-struct RigidMotion {
-  double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
-};
-
-// Rigid motion of each fragment with the same linear and angular momentum.
-template <class Real>
-std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
-  std::map<std::uint32_t, RigidMotion> motions;
-  const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < body.elementCount(); ++i)
-      if (body.alive[i]) visit(i, motions[body.fragment[i]]);
-  };
-  each([&](std::size_t i, RigidMotion& m) {
-    m.mass += body.mass[i];
-    m.centre += body.mass[i] * body.worldPosition(i);
-    m.velocity += body.mass[i] * body.velocity[i].template cast<double>();
-  });
-  for (auto& [root, m] : motions) {
-    m.centre /= m.mass;
-    m.velocity /= m.mass;
-  }
-  each([&](std::size_t i, RigidMotion& m) {
-    const Eigen::Vector3d arm = body.worldPosition(i) - m.centre;
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>() - m.velocity;
-    m.angular += body.mass[i] * arm.cross(v) + body.inertia[i] * body.spin[i].template cast<double>();
-    m.inertia += body.mass[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose()) +
-                 body.inertia[i] * Eigen::Matrix3d::Identity();
-  });
-  for (auto& [root, m] : motions) m.spin = m.inertia.ldlt().solve(m.angular);
-  return motions;
-}
 
 template <class Real>
 double kineticOf(const Body<Real>& body, std::size_t i) {

@@ -158,6 +158,18 @@ void PairLists<Real>::removeBody(std::uint32_t place) {
   std::erase_if(m_lists, [place](const PairList<Real>& l) { return l.first == place || l.second == place; });
 }
 
+template <class Real>
+double PairLists<Real>::endContactsOf(std::uint32_t id) {
+  double energy = 0;
+  for (PairList<Real>& list : m_lists) {
+    if (list.firstId != id && list.secondId != id) continue;
+    energy += std::exchange(list.elastic, 0);
+    list.entries.clear();
+    list.memory.clear();
+  }
+  return energy;
+}
+
 template class PairLists<float>;
 template class PairLists<double>;
 

@@ -49,6 +49,9 @@ class PairLists {
   /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.
   void removeBody(std::uint32_t place);
 
+  /// Ends all contacts of a body that stays in the list. Returns the energy that was in them [J].
+  double endContactsOf(std::uint32_t id);
+
   std::span<PairList<Real>> lists() { return m_lists; }
   std::span<const PairList<Real>> lists() const { return m_lists; }
   const ElementGrid& grid(std::size_t body) const { return m_grids[body]; }

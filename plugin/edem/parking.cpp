@@ -4,6 +4,7 @@
 
 #include "edem/body_books.h"
 #include "edem/frames.h"
+#include "edem/rigid_motion.h"
 #include "edem/stages.h"
 
 namespace rubble::edem {
@@ -37,20 +38,71 @@ void bookHost(const Motion& before, const Motion& after, Books& books) {
   books.kinetic += after.kinetic - before.kinetic;
 }
 
+// Where the asset's frame is.
+template <class Real>
+Eigen::Isometry3d placeOf(const Body<Real>& body) {
+  // The frame's origin is the centre of mass, asset axes: that of the rest positions.
+  const Eigen::Vector3d centre = body.asset->positions[0] - body.restCentred[0];
+  const Frame& frame = body.frames.back();
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.linear() = frame.turn.toRotationMatrix();
+  place.translation() = frame.origin - frame.turn * centre;
+  return place;
+}
+
+// A free body's shape is that of the asset; what an anchor holds has the sag in which it was first parked.
+template <class Real>
+void takeShape(Body<Real>& body) {
+  if (body.anchorsIntact > 0 && body.parkedAt.empty()) {
+    body.parkedAt = body.displacement;
+    body.parkedTurn = body.rotation;
+  } else if (body.anchorsIntact > 0) {
+    body.displacement = body.parkedAt;
+    body.rotation = body.parkedTurn;
+  } else {
+    for (Vec3<Real>& u : body.displacement) u.setZero();
+    for (Quat<Real>& q : body.rotation) q.setIdentity();
+  }
+  beginSubstep(body);
+}
+
 }  // namespace
 
 template <class Real>
-void park(Body<Real>& body, Books& books) {
+ParkedMotion park(Body<Real>& body, Books& books) {
   assert(!body.asleep && body.fragmentCount == 1 && body.brokenCount == 0);
   const Motion before = motionOf(body, books.centre);
+  const double elastic = elasticOf(body);
+  takeShape(body);
+  body.sleepingElastic = elasticOf(body);
+  ParkedMotion out;
+  out.place = placeOf(body);
+  Motion whole = before;
+  whole.kinetic = 0;
+  if (body.anchorsIntact == 0) {
+    const RigidMotion rest = rigidMotions(body).begin()->second;
+    out.velocity = before.linear / rest.mass;
+    out.angularMomentum = before.angular - (rest.centre - books.centre).cross(before.linear);
+    whole.kinetic = 0.5 * (before.linear.dot(out.velocity) +
+                           out.angularMomentum.dot(rest.inertia.ldlt().solve(out.angularMomentum)));
+  }
+  books.massDamped += before.kinetic - whole.kinetic + elastic - body.sleepingElastic;
+  books.kinetic += whole.kinetic - before.kinetic;
+  books.elastic += body.sleepingElastic - elastic;
+  if (body.anchorsIntact == 0) {
+    bookHost(whole, {}, books);
+  } else {
+    books.anchors.push(1, -before.linear, Eigen::Vector3d::Zero(), -before.angular);
+    books.linear -= before.linear;
+    books.angular -= before.angular;
+  }
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     body.velocity[i].setZero();
     body.velocityCarry[i].setZero();
     body.spin[i].setZero();
   }
-  bookHost(before, {}, books);
-  body.sleepingElastic = elasticOf(body);
   body.asleep = body.parked = true;
+  return out;
 }
 
 template <class Real>
@@ -69,30 +121,18 @@ void unpark(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vect
   body.asleep = body.parked = false;
   turnRest(body, 1);
   beginSubstep(body);
-  double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  const RigidMotion whole = rigidMotions(body).begin()->second;
+  const Eigen::Vector3d spin = whole.inertia.ldlt().solve(angularMomentum);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    mass += body.mass[i];
-    centre += body.mass[i] * body.worldPosition(i);
-  }
-  centre /= mass;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    const Eigen::Vector3d arm = body.worldPosition(i) - centre;
-    inertia += (body.mass[i] * arm.squaredNorm() + body.inertia[i]) * Eigen::Matrix3d::Identity() -
-               body.mass[i] * arm * arm.transpose();
-  }
-  const Eigen::Vector3d spin = inertia.ldlt().solve(angularMomentum);
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    const Eigen::Vector3d v = velocity + spin.cross(body.worldPosition(i) - centre);
+    const Eigen::Vector3d v = velocity + spin.cross(body.worldPosition(i) - whole.centre);
     body.velocity[i] = v.template cast<Real>();
     body.spin[i] = spin.template cast<Real>();
   }
   bookHost({}, motionOf(body, books.centre), books);
 }
 
-template void park(Body<float>&, Books&);
-template void park(Body<double>&, Books&);
+template ParkedMotion park(Body<float>&, Books&);
+template ParkedMotion park(Body<double>&, Books&);
 template void placeParked(Body<float>&, const Eigen::Isometry3d&);
 template void placeParked(Body<double>&, const Eigen::Isometry3d&);
 template void unpark(Body<float>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);

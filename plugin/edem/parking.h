@@ -7,9 +7,19 @@
 
 namespace rubble::edem {
 
-/// Lends an unbroken body of one fragment to the host, with its motion.
+/// How a body is lent: where its asset's frame is, velocity of its centre of mass [m/s], angular momentum
+/// about that [kg m^2/s].
+struct ParkedMotion {
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angularMomentum = Eigen::Vector3d::Zero();
+};
+
+/// Lends an unbroken body of one fragment to the host, with its momenta. Its elements go to their rest shape
+/// about the frame that follows them, what an anchor holds to the shape in which it was first parked; the
+/// energy that only elements have is booked as damped.
 template <class Real>
-void park(Body<Real>& body, Books& books);
+ParkedMotion park(Body<Real>& body, Books& books);
 
 /// Puts the asset's frame of a parked body at `place`. One that an anchor holds stays where it is.
 template <class Real>

@@ -99,6 +99,23 @@ void RigidContacts<Real>::endContacts(Bodies bodies) {
 }
 
 template <class Real>
+double RigidContacts<Real>::endContactsOf(std::uint32_t id) {
+  double energy = 0;
+  std::erase_if(m_candidates, [&](const Candidate& c) {
+    if (m_ids[c.body] != id) return false;
+    energy += c.energy;
+    return true;
+  });
+  std::erase_if(m_kept, [&](const Kept& k) {
+    if (k.body != id) return false;
+    energy += k.energy;
+    return true;
+  });
+  m_elastic -= energy;
+  return energy;
+}
+
+template <class Real>
 void RigidContacts<Real>::build(Bodies bodies, const PairLists<Real>& lists) {
   keepContacts();
   std::sort(m_kept.begin(), m_kept.end(), [](const Kept& a, const Kept& b) { return a.name() < b.name(); });

@@ -58,6 +58,8 @@ class RigidContacts {
   void release(Bodies bodies, double kick, Books& books);
   /// Touches anew, in this substep, what breaks have exposed more of; once they are applied.
   void expose(Bodies bodies, double step, double kick, RestingLoads& resting, Books& books);
+  /// Ends all contacts of a body, between two ticks. Returns the energy that was in them [J].
+  double endContactsOf(std::uint32_t id);
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
   /// Energy in the contacts [J].

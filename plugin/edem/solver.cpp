@@ -114,12 +114,18 @@ class SolverOf final : public Solver {
     bookSlept(body, m_world.books);
   }
 
-  bool park(std::uint32_t id) override {
+  std::optional<ParkedMotion> park(std::uint32_t id) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
-    if (body.asleep || body.brokenCount > 0 || body.fragmentCount != 1) return false;
-    edem::park(body, m_world.books);
+    if (!mayPark(body)) return std::nullopt;
+    const double contacts = m_world.lists.endContactsOf(id) + m_world.rigid.endContactsOf(id);
+    m_world.books.elastic -= contacts;
+    m_world.books.massDamped += contacts;
     m_world.listsStale = true;
-    return true;
+    return edem::park(body, m_world.books);
+  }
+  std::optional<Unrest> unrest(std::uint32_t id) const override {
+    if (!mayPark(of(id))) return std::nullopt;
+    return unrestOf(of(id));
   }
   void place(std::uint32_t id, const Eigen::Isometry3d& place) override {
     placeParked(*m_world.bodies[placeOf(id)], place);
@@ -144,6 +150,9 @@ class SolverOf final : public Solver {
   }
   const Body<Real>& of(std::uint32_t id) const { return *m_world.bodies[placeOf(id)]; }
 
+  static bool mayPark(const Body<Real>& body) {
+    return !body.asleep && body.brokenCount == 0 && body.fragmentCount == 1;
+  }
   double stableStepOf(const Body<Real>& body) const {
     return m_world.def.substepSafety * bodyBound(body).stableStep();
   }

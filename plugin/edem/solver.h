@@ -10,6 +10,8 @@
 
 #include "edem/body.h"
 #include "edem/books.h"
+#include "edem/calm.h"
+#include "edem/parking.h"
 #include "edem/rigid_proxy.h"
 #include "edem/solver_def.h"
 #include "edem/stages.h"
@@ -79,8 +81,10 @@ class Solver {
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;
   /// Lends a whole body to the host, which then moves it as one: its elements rest in its frame and touch
-  /// nothing. Only one that is unbroken and a single fragment; false otherwise.
-  virtual bool park(std::uint32_t id) = 0;
+  /// nothing. Only one that is awake, unbroken and a single fragment; none otherwise.
+  virtual std::optional<ParkedMotion> park(std::uint32_t id) = 0;
+  /// What keeps such a body from being lent without a jump; none for others.
+  virtual std::optional<Unrest> unrest(std::uint32_t id) const = 0;
   /// Where the asset's frame of a parked body is; anchored ones stay.
   virtual void place(std::uint32_t id, const Eigen::Isometry3d& place) = 0;
   /// Takes it back from where it was placed, with the velocity of its elements' centre of mass [m/s] and the

@@ -49,7 +49,7 @@ TEST_F(Profile, NamesEveryStageInItsOrder) {
                                              "substeps",       "finish",         "late impulses",
                                              "note reactions", "fix positions",  "write applied impulses",
                                              "book events",    "break elements", "step debris",
-                                             "update sleep"};
+                                             "freeze calm",    "update sleep"};
   EXPECT_EQ(ours, expected);
 }
 

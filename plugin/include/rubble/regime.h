@@ -8,8 +8,11 @@ enum class Regime {
   Elements,  ///< its elements, from the start: the reference, and the paper's letter
   /// Bullet, as one rigid body of true mass and shape: it rests, stacks, sleeps and takes forces as any other
   /// does. The elements take over in the very tick in which something is about to strike it with a stress of
-  /// half its tensile strength, with both momenta, and keep it. Only convex solids; others are elements,
-  /// which is logged. What rests on a body does not break it yet.
+  /// half its tensile strength, with both momenta. If it does not break and is calm for a quarter of a second
+  /// (slow, without tremor, no spring stressed to half its strength), it is Bullet's again: in the shape it
+  /// had, with both momenta and the application's settings, until it is struck the next time. One that broke
+  /// stays elements. Only convex solids; others are elements, which is logged. What rests on a whole body
+  /// does not break it yet.
   RigidUntilStruck,
 };
 

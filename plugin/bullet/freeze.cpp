@@ -1,0 +1,74 @@
+// Bodies of elements that have come to rest unbroken, and are Bullet's again.
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <LinearMath/btQuickprof.h>
+
+#include "bullet/body_states.h"
+#include "bullet/convert.h"
+#include "bullet/thaw.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toBullet;
+using bullet::toEigen;
+
+// What a body has to be for as long as kRestTime [s] before it is whole again.
+// Its motion as a whole is slower than this share of the speed from which it would be struck by what it
+// meets: it does not fly into the next blow.
+constexpr double kMotionShare = 0.5;
+// What trembles beside that is slower than this share of that speed: the stress of the waves that are still
+// in it is a tenth of the tensile strength, a fifth of what a blow needs.
+constexpr double kTrembleShare = 0.2;
+// No spring holds more than this share of its tensile strength: what a load nearly breaks stays elements.
+constexpr double kStressShare = 0.5;
+// No element jumps further when the body takes its rest shape [radii].
+constexpr double kJumpRadii = 0.1;
+constexpr double kRestTime = 0.25;
+
+bool isCalm(const edem::Unrest& unrest, double strikingSpeed, double radius) {
+  return unrest.speed < kMotionShare * strikingSpeed && unrest.trembling < kTrembleShare * strikingSpeed &&
+         unrest.stress < kStressShare && unrest.deformation < kJumpRadii * radius;
+}
+
+}  // namespace
+
+void Destruction::Impl::freezeCalm(double dt) {
+  if (!advanced || !failure.empty()) return;
+  BT_PROFILE("Rubble freeze calm");
+  for (DestructibleBody* body : bodies) {
+    DestructibleBody::Impl& own = body->impl();
+    if (own.state != DestructibleBody::Impl::State::Elements || !own.whole.shape) continue;
+    const std::optional<edem::Unrest> unrest = solver->unrest(own.id);
+    const bool calm = unrest && isCalm(*unrest, bullet::strikingSpeed(own.material), solver->radius(own.id));
+    own.restTime = calm ? own.restTime + dt : 0;
+    if (own.restTime > kRestTime) freeze(*body);
+  }
+}
+
+// Bullet has moved what was in its solver; it takes the body from its next tick on.
+void Destruction::Impl::freeze(DestructibleBody& body) {
+  DestructibleBody::Impl& own = body.impl();
+  const edem::ParkedMotion motion = *solver->park(own.id);
+  own.state = DestructibleBody::Impl::State::Whole;
+  ++wholes;
+  const Eigen::Isometry3d at = motion.place * own.whole.frame;
+  bullet::beRigid(body, toBullet(at));
+  bullet::restore(body, own.settings, world.getGravity());
+  // Bullet's centre may be beside that of the elements.
+  const Eigen::Vector3d arm = at.linear() * own.whole.elementCentre;
+  const Eigen::Vector3d angular = motion.angularMomentum + arm.cross(own.whole.mass * motion.velocity);
+  const Eigen::Vector3d spin =
+      at.linear() * (at.linear().transpose() * angular).cwiseQuotient(toEigen(own.whole.inertia));
+  body.setLinearVelocity(toBullet(motion.velocity));
+  body.setAngularVelocity(toBullet(spin));
+  body.setInterpolationLinearVelocity(body.getLinearVelocity());
+  body.setInterpolationAngularVelocity(body.getAngularVelocity());
+  body.applyGravity();  // for the ticks that are left of this call: Bullet did it at the call's start
+  world.getPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), world.getDispatcher());
+  world.updateSingleAabb(&body);
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

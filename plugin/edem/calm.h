@@ -1,0 +1,20 @@
+// How far a body is from one that rests in its shape: what its host asks before it takes it as a whole.
+#pragma once
+
+#include "edem/body.h"
+
+namespace rubble::edem {
+
+struct Unrest {
+  double speed = 0;        ///< of its fastest surface by its motion as a whole [m/s]
+  double trembling = 0;    ///< largest speed of an element's surface beside that motion [m/s]
+  double deformation = 0;  ///< furthest that an element is from where it would be parked [m]
+  /// Largest tension that the energy of a spring makes on its face, over the tensile strength; dimensionless.
+  double stress = 0;
+};
+
+/// Of a body of one fragment.
+template <class Real>
+Unrest unrestOf(const Body<Real>& body);
+
+}  // namespace rubble::edem

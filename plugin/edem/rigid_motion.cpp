@@ -1,0 +1,35 @@
+#include "edem/rigid_motion.h"
+
+namespace rubble::edem {
+
+template <class Real>
+std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
+  std::map<std::uint32_t, RigidMotion> motions;
+  const auto each = [&](auto&& visit) {
+    for (std::size_t i = 0; i < body.elementCount(); ++i)
+      if (body.alive[i]) visit(i, motions[body.fragment[i]]);
+  };
+  each([&](std::size_t i, RigidMotion& m) {
+    m.mass += body.mass[i];
+    m.centre += body.mass[i] * body.worldPosition(i);
+    m.velocity += body.mass[i] * body.velocity[i].template cast<double>();
+  });
+  for (auto& [root, m] : motions) {
+    m.centre /= m.mass;
+    m.velocity /= m.mass;
+  }
+  each([&](std::size_t i, RigidMotion& m) {
+    const Eigen::Vector3d arm = body.worldPosition(i) - m.centre;
+    const Eigen::Vector3d v = body.velocity[i].template cast<double>() - m.velocity;
+    m.angular += body.mass[i] * arm.cross(v) + body.inertia[i] * body.spin[i].template cast<double>();
+    m.inertia += body.mass[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose()) +
+                 body.inertia[i] * Eigen::Matrix3d::Identity();
+  });
+  for (auto& [root, m] : motions) m.spin = m.inertia.ldlt().solve(m.angular);
+  return motions;
+}
+
+template std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<float>&);
+template std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<double>&);
+
+}  // namespace rubble::edem
