@@ -139,7 +139,8 @@ std::function<bool(const SceneObject&)> is(Shape shape) {
 }
 
 bool isRound(const SceneObject& o) {
-  return isShape(o) && o.shape != Shape::Box && o.shape != Shape::Slab;
+  if (!isShape(o)) return false;
+  return o.shape != Shape::Box && o.shape != Shape::Slab && o.shape != Shape::Statue;
 }
 
 bool isCookedHere(const SceneObject& o) {
@@ -251,7 +252,8 @@ const Table<SceneObject>& objectKeys() {
                                     {"sphere", Shape::Sphere},
                                     {"torus", Shape::Torus},
                                     {"column", Shape::Column},
-                                    {"slab", Shape::Slab}},
+                                    {"slab", Shape::Slab},
+                                    {"statue", Shape::Statue}},
                                    "form of the solid; cylinder, torus and column stand along y")
               .only("shapes", isShape),
           vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m",

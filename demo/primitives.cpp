@@ -5,6 +5,7 @@
 #include "demo/column_mesh.h"
 #include "demo/lathe.h"
 #include "demo/slab_mesh.h"
+#include "demo/statue_mesh.h"
 
 namespace rubble::demo {
 namespace {
@@ -48,6 +49,8 @@ SurfaceMesh primitiveMesh(const SceneObject& object) {
       return columnMesh({object.size, shaftOf(object), plinthOf(object), object.segments});
     case SceneObject::Shape::Slab:
       return slabMesh(object.size, object.openings);
+    case SceneObject::Shape::Statue:
+      return statueMesh(object.size);
   }
   return boxMesh(object.size);
 }

@@ -28,7 +28,7 @@ struct SceneObject : Placement {
   std::filesystem::path mesh = {};   ///< empty: none
   double scale = 1;                  ///< of one unit of the mesh [m]
   std::filesystem::path asset = {};  ///< empty: none
-  enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab };
+  enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue };
   Shape shape = Shape::Box;
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box, or the one around it [m]
   std::uint32_t segments = 32;                     ///< flat strips around what is round

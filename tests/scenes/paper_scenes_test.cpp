@@ -1,4 +1,4 @@
-// The scenes of the paper's figures 7 and 8, small enough for every test run: fewer
+// The scenes of the paper's figures 7 and 8 and the statue, small enough for every test run: fewer
 // elements, the same blow.
 #include <gtest/gtest.h>
 
@@ -101,6 +101,17 @@ TEST(Column, BreaksAndItsTopFalls) {
   EXPECT_NEAR(scene.meanHeight(0, 0, 0.15), base, 0.05);
   EXPECT_LT(scene.meanHeight(0, 1.45, 1.6), capital - 0.3);
   EXPECT_GT(scene.meanHeight(0, 1.45, 1.6), capital - 9.81 / 2 * 0.16);  // of free fall for 24 frames
+}
+
+// Shot through the chest: the arm that is up, and the head, come down; the plinth is tied to the ground.
+TEST(Statue, BreaksAndItsArmFalls) {
+  SmallScene scene("statue", {{"objects.0.elements", "512"}, {"impactors.0.position", "[0.02, 0.95, -0.3]"}});
+  const double plinth = scene.meanHeight(0, 0, 0.19), arm = scene.meanHeight(0, 1.35, 1.6);
+  scene.run(24);
+  expectConsistent(scene, 1);
+  EXPECT_NEAR(scene.meanHeight(0, 0, 0.19), plinth, 0.05);
+  EXPECT_LT(scene.meanHeight(0, 1.35, 1.6), arm - 0.2);
+  EXPECT_GT(scene.meanHeight(0, 1.35, 1.6), arm - 9.81 / 2 * 0.16);  // of free fall for 24 frames
 }
 
 }  // namespace
