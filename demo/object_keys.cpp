@@ -236,6 +236,33 @@ Key<SceneObject> file(std::string name, std::filesystem::path SceneObject::*memb
               }};
 }
 
+Key<SceneObject> shape() {
+  return word<SceneObject, Shape>("shape", &SceneObject::shape,
+                                  {{"box", Shape::Box},
+                                   {"cylinder", Shape::Cylinder},
+                                   {"sphere", Shape::Sphere},
+                                   {"torus", Shape::Torus},
+                                   {"column", Shape::Column},
+                                   {"slab", Shape::Slab},
+                                   {"statue", Shape::Statue}},
+                                  "form of the solid; cylinder, torus and column stand along y")
+      .only("shapes", isShape);
+}
+
+Key<SceneObject> anchor() {
+  return Key<SceneObject>{
+      "anchor",
+      "[x, y, z], not zero",
+      "",
+      "the flat side that faces this way is tied to the world",
+      [](SceneObject& target, const Json& json, const Place& place) {
+        target.anchor = readVector(json, limits::kPosition, place);
+        if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
+      },
+      [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }}
+      .only("shapes and meshes", isCookedHere);
+}
+
 }  // namespace
 
 const Table<SceneObject>& objectKeys() {
@@ -246,16 +273,7 @@ const Table<SceneObject>& objectKeys() {
               .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
           file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
               .only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); }),
-          word<SceneObject, Shape>("shape", &SceneObject::shape,
-                                   {{"box", Shape::Box},
-                                    {"cylinder", Shape::Cylinder},
-                                    {"sphere", Shape::Sphere},
-                                    {"torus", Shape::Torus},
-                                    {"column", Shape::Column},
-                                    {"slab", Shape::Slab},
-                                    {"statue", Shape::Statue}},
-                                   "form of the solid; cylinder, torus and column stand along y")
-              .only("shapes", isShape),
+          shape(),
           vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m",
                               "full edge lengths of the box, or of the box around the shape")
               .only("shapes", isShape)
@@ -287,14 +305,7 @@ const Table<SceneObject>& objectKeys() {
           number<SceneObject>("fill", &SceneObject::fill, limits::kFill, "",
                               "share of the solid that the spheres fill when `radius` is 0")
               .only("shapes and meshes", isCookedHere),
-          Key<SceneObject>{
-              "anchor", "[x, y, z], not zero", "", "the flat side that faces this way is tied to the world",
-              [](SceneObject& target, const Json& json, const Place& place) {
-                target.anchor = readVector(json, limits::kPosition, place);
-                if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
-              },
-              [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }}
-              .only("shapes and meshes", isCookedHere),
+          anchor(),
           number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                               "decay rate of the deformation; the rigid motion is not damped"),
           word<SceneObject, Regime>(
