@@ -73,7 +73,7 @@ Eigen::Vector3d parseDirection(const std::string& option, const std::string& tex
 }
 
 void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
-  app.add_option("SCENE", line.scene, "name in demo/scenes, or path of a JSON file")->required();
+  app.add_option("SCENE", line.scene, "a name (" + sceneNames() + "), or path of a JSON file")->required();
   app.add_option("--set", raw.sets, "key.path=value: change the scene; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--frames", raw.frames, "number of frames");

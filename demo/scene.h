@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "demo/place.h"
+#include "demo/slab_mesh.h"
 #include "rubble/material.h"
 #include "rubble/regime.h"
 
@@ -22,14 +23,18 @@ struct Placement {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();             ///< axis times rate [rad/s]
 };
 
-/// Something that can break: a box, the solid in a mesh file, or an asset that was cooked before.
+/// Something that can break: a solid by its name, that in a mesh file, or an asset that was cooked before.
 struct SceneObject : Placement {
   std::filesystem::path mesh = {};   ///< empty: none
   double scale = 1;                  ///< of one unit of the mesh [m]
   std::filesystem::path asset = {};  ///< empty: none
-  enum class Shape { Box };
+  enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue };
   Shape shape = Shape::Box;
-  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box [m]
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box, or the one around it [m]
+  std::uint32_t segments = 32;                     ///< flat strips around what is round
+  double shaft = 0;                                ///< diameter, of a column [m]; 0: chosen
+  double plinth = 0;                               ///< height of a column's base and capital [m]; 0: chosen
+  std::vector<Opening> openings = {};              ///< of a slab
   std::uint32_t elements = 2048;
   double radius = 0;  ///< of the elements [m]; 0: chosen so that the spheres fill `fill` of the solid
   double fill = 0.48;

@@ -9,6 +9,7 @@
 #include "bullet/convert.h"
 #include "demo/input_error.h"
 #include "demo/overlaps.h"
+#include "demo/primitives.h"
 #include "demo/scene_advice.h"
 #include "demo/solid.h"
 #include "demo/substeps.h"
@@ -78,7 +79,7 @@ Uncooked uncookedObject(const Scene& scene, std::size_t index) {
     requireSubsteps(scene, index, uncooked.asset->volume(), uncooked.asset->elementCount());
     return uncooked;
   }
-  uncooked.mesh = object.mesh.empty() ? boxMesh(object.size) : readSolid(object.mesh, object.scale);
+  uncooked.mesh = object.mesh.empty() ? primitiveMesh(object) : readSolid(object.mesh, object.scale);
   requireSubsteps(scene, index, volumeOf(*uncooked.mesh), object.elements);
   return uncooked;
 }

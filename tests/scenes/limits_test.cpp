@@ -178,6 +178,8 @@ TEST_F(SceneLimits, EveryNumberOfASceneIsLookedAt) {
       "objects.N.elements", "objects.N.radius",
       // the size of the scaled mesh is what counts (cook_program_test.cpp)
       "objects.N.scale",
+      // of named shapes (primitive_test.cpp)
+      "objects.N.segments", "objects.N.shaft", "objects.N.plinth",
       // of Bullet's own bodies
       "impactors.N.radius", "impactors.N.size", "impactors.N.mass", "impactors.N.position",
       "impactors.N.velocity", "impactors.N.spin", "impactors.N.friction", "impactors.N.restitution",
