@@ -45,7 +45,8 @@ void bookLeaving(const Body<Real>& body, double contactElastic, Books& books) {
   Body<Real> copy = body;
   beginSubstep(copy);
   const double elastic = accumulateSprings(copy, 0, false, probe) + contactElastic;
-  integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<double>>(copy.position), probe);
+  integrate(copy, 0, 0, Eigen::Vector3d::Zero(), std::span<const Vec3<double>>(copy.position),
+            Eigen::Vector3d::Zero(), probe);
   books.leftMass += probe.mass;
   books.leftKinetic += probe.kinetic;
   books.leftElastic += elastic;

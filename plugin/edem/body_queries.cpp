@@ -23,11 +23,13 @@ RateBound bodyBound(const Body<Real>& body) {
 }
 
 template <class Real>
-double speedOf(const Body<Real>& b) {
+double speedOf(const Body<Real>& b, const Eigen::Vector3d& drift) {
+  const Vec3<Real> common = drift.cast<Real>();
   double fastest = 0;
   for (std::size_t i = 0; i < b.elementCount(); ++i)
     if (b.alive[i])
-      fastest = std::max(fastest, double(b.velocity[i].norm()) + double(b.radius) * double(b.spin[i].norm()));
+      fastest = std::max(
+          fastest, double((b.velocity[i] - common).norm()) + double(b.radius) * double(b.spin[i].norm()));
   return fastest;
 }
 
@@ -66,8 +68,8 @@ void addTo(base::Fnv1a& hash, const Body<Real>& body) {
 
 template RateBound bodyBound(const Body<float>&);
 template RateBound bodyBound(const Body<double>&);
-template double speedOf(const Body<float>&);
-template double speedOf(const Body<double>&);
+template double speedOf(const Body<float>&, const Eigen::Vector3d&);
+template double speedOf(const Body<double>&, const Eigen::Vector3d&);
 template Eigen::AlignedBox3d boundsOf(const Body<float>&);
 template Eigen::AlignedBox3d boundsOf(const Body<double>&);
 template void elementsIn(const Body<float>&, const Eigen::AlignedBox3d&, std::vector<std::uint32_t>&);

@@ -13,9 +13,9 @@ namespace rubble::edem {
 template <class Real>
 RateBound bodyBound(const Body<Real>& body);
 
-/// Largest speed of an element's surface [m/s].
+/// Largest speed of an element's surface beside `drift` [m/s].
 template <class Real>
-double speedOf(const Body<Real>& body);
+double speedOf(const Body<Real>& body, const Eigen::Vector3d& drift = Eigen::Vector3d::Zero());
 
 /// Of what rigid bodies touch of the living elements, world; empty if there are none [m].
 template <class Real>

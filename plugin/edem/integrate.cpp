@@ -35,7 +35,7 @@ Quat<Real> rotated(const Quat<Real>& q, const Vec3<Real>& w, Real h) {
 
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
-               std::span<const Vec3<double>> listed, Books& books) {
+               std::span<const Vec3<double>> listed, const Eigen::Vector3d& drifted, Books& books) {
   assert(std::isfinite(kick) && kick >= 0 && std::isfinite(step) && step >= 0);
   assert(listed.size() == body.elementCount());
   const Real kickTime = Real(kick), stepTime = Real(step);
@@ -53,7 +53,8 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
     body.spin[i] = oldSpin + (kickTime * body.inverseInertia[i]) * body.torque[i];
     body.displacement[i] += stepTime * body.velocity[i];
     body.rotation[i] = rotated(body.rotation[i], body.spin[i], stepTime);
-    const Vec3<double> moved = body.rest[i] + body.displacement[i].template cast<double>() - listed[i];
+    const Vec3<double> moved =
+        body.rest[i] + body.displacement[i].template cast<double>() - listed[i] - drifted;
     const Real moved2 = Real(moved.squaredNorm());
     furthest2 = moved2 > furthest2 || !(moved2 == moved2) ? moved2 : furthest2;
 
@@ -136,9 +137,9 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
 }
 
 template float integrate(Body<float>&, double, double, const Eigen::Vector3d&, std::span<const Vec3<double>>,
-                         Books&);
+                         const Eigen::Vector3d&, Books&);
 template double integrate(Body<double>&, double, double, const Eigen::Vector3d&,
-                          std::span<const Vec3<double>>, Books&);
+                          std::span<const Vec3<double>>, const Eigen::Vector3d&, Books&);
 template void removeCrushed(Body<float>&, std::size_t, Books&, TickReport&);
 template void removeCrushed(Body<double>&, std::size_t, Books&, TickReport&);
 

@@ -292,12 +292,12 @@ void RigidContacts<Real>::soften(double frequency2) {
 }
 
 template <class Real>
-bool RigidContacts<Real>::expired(double skin) const {
+bool RigidContacts<Real>::expired(double skin, std::span<const Drift> drifts) const {
   for (std::size_t p = 0; p < m_proxies.size(); ++p) {
     const RigidProxy& proxy = m_proxies[p];
     const double angle = m_states[p].listedOrientation.angularDistance(proxy.orientation);
-    if ((proxy.position - m_states[p].listedPosition).norm() + angle * proxy.reach() > 0.5 * skin)
-      return true;
+    const Eigen::Vector3d moved = proxy.position - m_states[p].listedPosition - drifts[p].moved;
+    if (moved.norm() + angle * proxy.reach() > 0.5 * skin) return true;
   }
   return false;
 }
@@ -745,10 +745,12 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
 }
 
 template <class Real>
-double RigidContacts<Real>::maxSpeed() const {
+double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
   double fastest = 0;
-  for (const RigidProxy& p : m_proxies)
-    fastest = std::max(fastest, p.velocity.norm() + p.spin.norm() * p.reach());
+  for (std::size_t i = 0; i < m_proxies.size(); ++i) {
+    const RigidProxy& p = m_proxies[i];
+    fastest = std::max(fastest, (p.velocity - drifts[i].velocity).norm() + p.spin.norm() * p.reach());
+  }
   return fastest;
 }
 

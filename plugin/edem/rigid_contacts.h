@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "edem/corner_hits.h"
+#include "edem/drift.h"
 #include "edem/face_touch.h"
 #include "edem/pair_lists.h"
 #include "edem/resting_loads.h"
@@ -27,8 +28,8 @@ class RigidContacts {
   /// Lists the elements within their reach + skin of each proxy. Holds until elements or proxies moved half
   /// the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);
-  /// True when a proxy has moved more than half the skin since build.
-  bool expired(double skin) const;
+  /// True when a proxy has moved more than half the skin since build, beside its drift.
+  bool expired(double skin, std::span<const Drift> drifts) const;
 
   /// Takes faces that broke since the last call into the rates.
   void weigh(Bodies bodies);
@@ -65,8 +66,9 @@ class RigidContacts {
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 
-  /// Largest speed of a dynamic proxy's surface [m/s].
-  double maxSpeed() const;
+  /// Largest speed of a proxy's surface beside its drift [m/s].
+  double maxSpeed(std::span<const Drift> drifts) const;
+  std::span<const RigidProxy> proxies() const { return m_proxies; }
 
  private:
   // What faces remember of a rigid body beside their contact's memory.

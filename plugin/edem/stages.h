@@ -63,11 +63,11 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
                  TickReport& report);
 
 /// Symplectic Euler (eq. 1, 2): velocities over `kick`, then positions over `step` [s]. Adds mass, momentum
-/// and kinetic energy of the body to the books' state. Returns the largest squared distance from `listed`
-/// [m^2], NaN if anything is not finite.
+/// and kinetic energy of the body to the books' state. Returns the largest squared distance from `listed` +
+/// `drifted` [m^2], NaN if anything is not finite.
 template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
-               std::span<const Vec3<double>> listed, Books& books);
+               std::span<const Vec3<double>> listed, const Eigen::Vector3d& drifted, Books& books);
 
 /// Leaving elements leave, with their share of the energy of report.broken[brokenBegin..].
 template <class Real>

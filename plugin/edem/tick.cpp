@@ -19,22 +19,26 @@ constexpr double kSkinRadii = 0.5;
 // An element may not pass more than this share of its radius in a substep, or thin things are missed.
 constexpr double kTravelShare = 0.25;
 
+// `left`: of the tick [s].
 template <class Real>
-void list(World<Real>& w) {
+void list(World<Real>& w, double left) {
   const base::ScopeTimer timer(w.report.listing);
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& body : w.bodies) radius = std::min(radius, double(body->radius));
   w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * radius);
   w.rigid.build(w.bodies, w.lists);
+  findDrifts(std::span<const std::unique_ptr<Body<Real>>>(w.bodies), w.rigid.proxies(), w.lists.skin(), left,
+             w.drifts);
   w.listsStale = false;
 }
 
 // Lists anew what is out of date; true if anything was.
 template <class Real>
-bool refreshLists(World<Real>& w) {
-  if (w.listsStale) {
-    list(w);
-  } else if (w.rigid.expired(w.lists.skin())) {
+bool refreshLists(World<Real>& w, double left) {
+  const bool expired = !w.listsStale && w.rigid.expired(w.lists.skin(), w.drifts.proxies);
+  if (w.listsStale || (expired && w.drifts.any())) {
+    list(w, left);
+  } else if (expired) {
     w.rigid.build(w.bodies, w.lists);
   } else {
     return false;
@@ -67,11 +71,12 @@ template <class Real>
 double longestStep(World<Real>& w, double dt) {
   w.stepLength.bound(w.bodies, w.lists, w.rigid);
   const double stable = std::min(w.def.substepSafety * w.stepLength.stable(), w.stepLength.resolving());
-  double speed = w.rigid.maxSpeed(), radius = std::numeric_limits<double>::infinity();
-  for (const auto& body : w.bodies) {
-    if (body->asleep) continue;
-    speed = std::max(speed, speedOf(*body));
-    radius = std::min(radius, double(body->radius));
+  double speed = w.rigid.maxSpeed(w.drifts.proxies), radius = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < w.bodies.size(); ++b) {
+    const Body<Real>& body = *w.bodies[b];
+    if (body.asleep) continue;
+    speed = std::max(speed, speedOf(body, w.drifts.bodies[b].velocity));
+    radius = std::min(radius, double(body.radius));
   }
   const bool travels = speed > 0 && std::isfinite(radius);
   const double travel = travels ? kTravelShare * radius / speed : std::numeric_limits<double>::infinity();
@@ -127,6 +132,7 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     if (!w.bodies[b]->asleep) applyBreaks(*w.bodies[b], b, kick, w.lists, w.books, w.report);
   if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.resting, w.books);
 
+  w.drifts.advance(step);
   w.books.mass = w.books.kinetic = 0;
   w.books.linear = w.books.angular = Eigen::Vector3d::Zero();
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
@@ -136,7 +142,8 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
       continue;
     }
     const Real moved2 =
-        integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed), w.books);
+        integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed),
+                  w.drifts.bodies[b].moved, w.books);
     if (!std::isfinite(moved2))
       w.failure = "body " + std::to_string(body.id) +
                   ": the state of its elements is not finite; lower substepSafety, or look for "
@@ -189,7 +196,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   while (left > 0 && w.failure.empty()) {
     for (auto& body : w.bodies)
       if (!body->asleep) beginSubstep(*body);
-    const bool listed = refreshLists(w);
+    const bool listed = refreshLists(w, left);
     if (listed) refreshFragments(w);
     if (listed || contactsBegan(w)) {
       // What is near has changed: the rest of the tick in equal steps that are short enough for it.

@@ -7,6 +7,7 @@
 
 #include "edem/body.h"
 #include "edem/books.h"
+#include "edem/drift.h"
 #include "edem/pair_lists.h"
 #include "edem/resting_loads.h"
 #include "edem/rigid_contacts.h"
@@ -25,6 +26,7 @@ struct World {
   RestingLoads resting;
   StepLength<Real> stepLength;
   bool listsStale = true;
+  Drifts drifts;        ///< since the last listing
   double lastStep = 0;  ///< of the positions; 0 before the first [s]
   TickReport report;    ///< of the last tick
   Books books;

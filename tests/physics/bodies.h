@@ -112,7 +112,7 @@ class OneBody {
     m_books.linear.setZero();
     m_books.angular.setZero();
     using Points = std::span<const edem::Vec3<double>>;
-    edem::integrate(b, step, step, kNoGravity, Points(m_lists.grid(0).listed), m_books);
+    edem::integrate(b, step, step, kNoGravity, Points(m_lists.grid(0).listed), kNoGravity, m_books);
   }
 
  private:

@@ -121,5 +121,59 @@ TYPED_TEST(FreeBody, TheSameRunGivesTheSameHash) {
   EXPECT_NE(run(2), run(2.001));
 }
 
+// A ball strikes a block, both with a velocity in common. Returns the velocity of the ball beside that, and
+// the most substeps of a tick.
+std::pair<Eigen::Vector3d, int> blowAt(const Eigen::Vector3d& common, const Eigen::Vector3d& gravity) {
+  const auto solver = makeSolver<double>(false);
+  edem::BodyDef def = block({3, 3, 3});
+  def.velocity = common;
+  solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {
+      ball(0.2, 30, {0.3, 0.3, -0.25}, common + Eigen::Vector3d(0, 0, 5))};
+  proxies[0].acceleration = gravity;
+  int substeps = 0;
+  for (int t = 0; t < 6; ++t) {
+    solver->tick(kFrame, gravity, proxies);
+    EXPECT_EQ(solver->report().warning, "");
+    substeps = std::max(substeps, solver->report().substeps);
+  }
+  return {proxies[0].velocity - common - 6 * kFrame * gravity, substeps};
+}
+
+// Galilei: what falls together meets as at rest, and costs no more.
+TEST(Drift, ABlowBetweenWhatFallsIsThatAtRest) {
+  const auto [rest, substeps] = blowAt({0, 0, 0}, kNoGravity);
+  EXPECT_LT(rest.z(), 2) << "it was braked, from 5 m/s";
+  const Eigen::Vector3d fast(20, -400, 30);
+  // The steps differ in length: they follow speeds beside that of the common centre of mass.
+  for (const Eigen::Vector3d& gravity : {kNoGravity, kGravity}) {
+    const auto [falling, fallingSubsteps] = blowAt(fast, gravity);
+    EXPECT_LT((falling - rest).norm(), 2e-3 * 5);
+    EXPECT_NEAR(fallingSubsteps, substeps, 1);
+  }
+}
+
+// However fast they come: what stands is met, by elements and by a ball that they fall with.
+TEST(Drift, WhatFallsFastMeetsWhatStands) {
+  for (const bool onPlane : {false, true}) {
+    const auto solver = makeSolver<double>(false);
+    edem::BodyDef def = block({2, 2, 2});
+    def.transform = Eigen::Translation3d(0, 6, 0);
+    def.velocity = {0, -40, 0};
+    solver->addBody(def, kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {onPlane ? fixedPlane() : fixedBox({2, 1, 2}, {0, -1, 0}),
+                                             ball(0.2, 30, {0.2, 6.62, 0.2}, {0, -40, 0})};
+    proxies[0].restitution = 1;
+    for (int t = 0; t < 30; ++t) {
+      solver->tick(kFrame, kNoGravity, proxies);
+      ASSERT_EQ(solver->failure(), "");
+      for (std::uint32_t i = 0; i < 8; ++i)
+        ASSERT_GT(solver->position(0, i).y(), -0.15) << onPlane << ", " << t;
+      ASSERT_GT(proxies[1].position.y(), 0) << onPlane << ", " << t;
+    }
+    EXPECT_GT(solver->books().bullet.linear.y(), 1e3);
+  }
+}
+
 }  // namespace
 }  // namespace rubble::test
