@@ -1,5 +1,6 @@
 #include "rubble/asset.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/asset_check.h"
@@ -27,6 +28,10 @@ double Asset::diagonal() const {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+std::uint32_t Asset::innerMaterial() const {
+  return std::uint32_t(std::max<std::size_t>(materialNames.size(), 1));
+}
+
 std::span<const CellFace> Asset::cellFaces(std::size_t element) const {
   const Cell& cell = cells[element];
   return std::span(faces).subspan(cell.firstFace, cell.faceCount);
@@ -35,6 +40,7 @@ std::span<const CellFace> Asset::cellFaces(std::size_t element) const {
 void Asset::validate() const {
   base::checkCounts(*this);
   base::checkIndices(*this);
+  base::checkLook(*this);
   const base::AssetScale scale = base::checkNumbers(*this);
   base::checkNeighbours(*this);
   base::checkCellShapes(*this, scale);

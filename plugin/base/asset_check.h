@@ -25,6 +25,8 @@ struct AssetScale {
 void checkCounts(const Asset& asset);
 /// Every index, range and order. Afterwards all of them can be followed.
 void checkIndices(const Asset& asset);
+/// Texture coordinates and materials, with the names of these.
+void checkLook(const Asset& asset);
 /// Every number by itself, and sizes against the bounds.
 AssetScale checkNumbers(const Asset& asset);
 /// Faces between cells stand on both sides and once a side; springs join cells with a face between them.

@@ -4,12 +4,15 @@
 //   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | 8 counts u64 | the arrays,
 //   in that order | in version 2 the static state: key u64, displacements 3 f64, rotations x y z w f64
 //
-// Version 1 has no static state and is written where there is none, so that older libraries read it.
-// The checksum covers everything behind it. The counts say how long the file must be.
+// Version 3 has 12 counts. The last four are of texture coordinates, triangles with a material, bytes of the
+// materials' names (each ends with a zero) and elements with a static state, all or none; their arrays follow
+// in that order. A version is written only where the one before would not do, so that older libraries read
+// what they can. The checksum covers everything behind it. The counts say how long the file must be.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "rubble/asset.h"
 
@@ -18,6 +21,7 @@ namespace rubble::base {
 inline constexpr std::array<char, 8> kAssetMagic = {'R', 'U', 'B', 'B', 'L', 'E', 'A', 'S'};
 inline constexpr std::uint32_t kAssetVersion = 1;
 inline constexpr std::uint32_t kAssetVersionWithRest = 2;
+inline constexpr std::uint32_t kAssetVersionWithLook = 3;
 
 enum AssetArray {
   kElements,
@@ -28,6 +32,11 @@ enum AssetArray {
   kTriangles,
   kFaces,
   kCells,
+  kShapeArrays,  // all that versions 1 and 2 count
+  kUvs = kShapeArrays,
+  kMaterials,
+  kNameBytes,
+  kRest,  // its key stands in front of the first
   kAssetArrays
 };
 using AssetCounts = std::array<std::uint64_t, kAssetArrays>;
@@ -44,15 +53,21 @@ inline constexpr std::array<AssetRecord, kAssetArrays> kAssetRecords = {{{3 * 8 
                                                                          {4 + 4 + 3 * 4, "corners"},
                                                                          {3 * 4, "triangles"},
                                                                          {4 + 4 + 3 * 4 + 3 * 4, "faces"},
-                                                                         {5 * 4, "cells"}}};
+                                                                         {5 * 4, "cells"},
+                                                                         {2 * 4, "texture coordinates"},
+                                                                         {2, "materials"},
+                                                                         {1, "bytes of names"},
+                                                                         {3 * 8 + 4 * 8, "static states"}}};
 
-/// Bytes of the static state of so many elements.
-inline constexpr std::uint64_t kAssetRestBytes = 3 * 8 + 4 * 8, kAssetRestKeyBytes = 8;
+/// Of the static state, beside a record an element.
+inline constexpr std::uint64_t kAssetRestKeyBytes = 8;
 
 inline constexpr std::size_t kAssetChecksumOffset = kAssetMagic.size() + 4 + 4;
 /// The checksum covers the file from here on.
 inline constexpr std::size_t kAssetBodyOffset = kAssetChecksumOffset + 8;
-inline constexpr std::size_t kAssetHeaderBytes = kAssetBodyOffset + 8 + 8 * kAssetArrays;
+/// Of versions 1 and 2, and of version 3.
+inline constexpr std::size_t kAssetHeaderBytes = kAssetBodyOffset + 8 + 8 * kShapeArrays;
+inline constexpr std::size_t kAssetLookHeaderBytes = kAssetBodyOffset + 8 + 8 * kAssetArrays;
 
 /// The largest file that is written or read [bytes]: ten million elements, the most that the cook makes, take
 /// about 28 GB. It also keeps every count below what a 32-bit index can name.
@@ -61,9 +76,17 @@ inline constexpr std::uint64_t kMostAssetBytes = std::uint64_t{32} << 30;
 inline constexpr std::size_t kAssetBlock = std::size_t{1} << 16;
 static_assert(kAssetBlock % 8 == 0);
 
+/// The names of the materials as the file holds them.
+inline std::string nameBytesOf(const Asset& asset) {
+  std::string names;
+  for (const std::string& name : asset.materialNames) names.append(name).push_back('\0');
+  return names;
+}
+
 /// One description of the arrays' fields serves both directions: `field` writes or reads what it is given.
-template <class AssetType, class Field>
-void visitAssetFields(AssetType& asset, Field&& field) {
+/// `names` are the bytes of nameBytesOf, or room for them.
+template <class AssetType, class Names, class Field>
+void visitAssetFields(AssetType& asset, Names& names, Field&& field) {
   for (auto& position : asset.positions) field(position);
   for (auto& volume : asset.volumes) field(volume);
   for (auto& gyration : asset.gyrations) field(gyration);
@@ -76,6 +99,9 @@ void visitAssetFields(AssetType& asset, Field&& field) {
   for (auto& c : asset.cells)
     field(c.firstTriangle), field(c.outerTriangles), field(c.innerTriangles), field(c.firstFace),
         field(c.faceCount);
+  for (auto& uv : asset.uvs) field(uv);
+  for (auto& material : asset.materials) field(material);
+  for (auto& letter : names) field(letter);
   if (!asset.rest) return;
   field(asset.rest->key);
   for (auto& displacement : asset.rest->displacements) field(displacement);

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <span>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "base/asset_format.h"
 #include "base/hash.h"
 #include "base/input_file.h"
+#include "base/material_name.h"
 
 namespace rubble {
 namespace {
@@ -33,11 +36,16 @@ T decoded(const std::uint8_t* bytes) {
   return std::bit_cast<T>(number);
 }
 
+constexpr std::uint64_t kMostBytesOfNames = kMostMaterials * (kMostNameBytes + 1);
+
 struct Header {
-  bool hasRest = false;
+  std::size_t bytes = kAssetHeaderBytes;
   std::uint64_t checksum = 0;
-  double radius = 0;
   AssetCounts counts{};
+
+  bool hasRest() const { return counts[kRest] > 0; }
+  // How many of the counts stand in the file.
+  std::size_t countsInFile() const { return bytes == kAssetLookHeaderBytes ? kAssetArrays : kShapeArrays; }
 };
 
 // The file's body in blocks; adds up the checksum of what it has read.
@@ -56,9 +64,9 @@ class BodyReader {
     value = decoded<T>(m_buffer.data() + m_at);
     m_at += sizeof(T);
   }
-  template <class Scalar>
-  void get(Eigen::Matrix<Scalar, 3, 1>& v) {
-    for (int axis = 0; axis < 3; ++axis) get(v[axis]);
+  template <class Scalar, int N>
+  void get(Eigen::Matrix<Scalar, N, 1>& v) {
+    for (int axis = 0; axis < N; ++axis) get(v[axis]);
   }
   template <std::size_t N>
   void get(std::array<std::uint32_t, N>& values) {
@@ -102,34 +110,60 @@ class BodyReader {
   std::uint64_t m_checksum = base::Fnv1a::kOffsetBasis;
 };
 
-Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
-  std::array<std::uint8_t, kAssetHeaderBytes> bytes{};
-  const std::size_t count = std::size_t(std::min<std::uint64_t>(size, bytes.size()));
+// The file's first bytes, as many as the longest header has or the file.
+std::vector<std::uint8_t> readStart(const std::filesystem::path& file, std::ifstream& stream,
+                                    std::uint64_t size) {
+  std::vector<std::uint8_t> bytes(std::size_t(std::min<std::uint64_t>(size, kAssetLookHeaderBytes)));
   errno = 0;
-  stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(count));
+  stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
   if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
-  const std::size_t start = std::min(count, kAssetMagic.size());
+  return bytes;
+}
+
+std::size_t headerBytesOf(const std::filesystem::path& file, std::uint32_t version) {
+  if (version == kAssetVersion || version == kAssetVersionWithRest) return kAssetHeaderBytes;
+  if (version == kAssetVersionWithLook) return kAssetLookHeaderBytes;
+  refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions " +
+                       std::to_string(kAssetVersion) + " to " + std::to_string(kAssetVersionWithLook) +
+                       ": cook it again");
+}
+
+Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
+  const std::vector<std::uint8_t> bytes = readStart(file, stream, size);
+  const std::size_t start = std::min(bytes.size(), kAssetMagic.size());
   if (std::memcmp(bytes.data(), kAssetMagic.data(), start) != 0) refuseFile(file, "is not a rubble asset");
-  if (count < bytes.size())
-    refuseFile(file, "is cut off, or not an asset: it has " + std::to_string(size) +
-                         " bytes; an asset's header has " + std::to_string(bytes.size()));
+  const auto requireBytes = [&](std::size_t count) {
+    if (bytes.size() < count)
+      refuseFile(file, "is cut off, or not an asset: it has " + std::to_string(size) +
+                           " bytes; an asset's header has " + std::to_string(count));
+  };
+  requireBytes(kAssetHeaderBytes);
   const std::uint8_t* at = bytes.data() + kAssetMagic.size();
   const auto version = decoded<std::uint32_t>(at);
   const auto headerBytes = decoded<std::uint32_t>(at + 4);
-  if (version != kAssetVersion && version != kAssetVersionWithRest)
-    refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions " +
-                         std::to_string(kAssetVersion) + " and " + std::to_string(kAssetVersionWithRest) +
-                         ": cook it again");
-  if (headerBytes != kAssetHeaderBytes)
-    refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
-                         " bytes; allowed: " + std::to_string(kAssetHeaderBytes));
   Header header;
-  header.hasRest = version == kAssetVersionWithRest;
+  header.bytes = headerBytesOf(file, version);
+  if (headerBytes != header.bytes)
+    refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
+                         " bytes; allowed: " + std::to_string(header.bytes));
+  requireBytes(header.bytes);
   header.checksum = decoded<std::uint64_t>(bytes.data() + kAssetChecksumOffset);
-  header.radius = decoded<double>(bytes.data() + kAssetBodyOffset);
-  for (std::size_t a = 0; a < kAssetArrays; ++a)
+  for (std::size_t a = 0; a < header.countsInFile(); ++a)
     header.counts[a] = decoded<std::uint64_t>(bytes.data() + kAssetBodyOffset + 8 + 8 * a);
+  if (version == kAssetVersionWithRest) header.counts[kRest] = header.counts[kElements];
   return header;
+}
+
+void checkCounts(const std::filesystem::path& file, const AssetCounts& counts) {
+  if (counts[kElements] != counts[kCells])
+    refuseFile(file, "is damaged: " + std::to_string(counts[kCells]) + " cells for " +
+                         std::to_string(counts[kElements]) + " elements; allowed: one an element");
+  if (counts[kNameBytes] > kMostBytesOfNames)
+    refuseFile(file, "is damaged: " + std::to_string(counts[kNameBytes]) +
+                         " bytes of names of materials; allowed: up to " + std::to_string(kMostBytesOfNames));
+  if (counts[kRest] != 0 && counts[kRest] != counts[kElements])
+    refuseFile(file, "is damaged: static states of " + std::to_string(counts[kRest]) + " elements for " +
+                         std::to_string(counts[kElements]) + "; allowed: none or one an element");
 }
 
 void checkLength(const std::filesystem::path& file, std::uint64_t size, const Header& header) {
@@ -137,8 +171,8 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const He
   if (size > kMostAssetBytes)
     refuseFile(file,
                "has " + std::to_string(size) + " bytes; allowed: up to " + std::to_string(kMostAssetBytes));
-  std::uint64_t left = size - kAssetHeaderBytes;
-  for (std::size_t a = 0; a < kAssetArrays; ++a) {
+  std::uint64_t left = size - header.bytes;
+  for (std::size_t a = 0; a < kRest; ++a) {
     if (counts[a] > left / kAssetRecords[a].bytes) {  // a product could overflow
       std::ostringstream text;
       text << "is cut off or damaged: " << counts[a] << ' ' << kAssetRecords[a].name
@@ -147,18 +181,16 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const He
     }
     left -= counts[a] * kAssetRecords[a].bytes;
   }
-  if (header.hasRest) {
+  checkCounts(file, counts);
+  if (header.hasRest()) {
     // The elements fitted into the file with more bytes each, so nothing overflows.
-    const std::uint64_t bytes = kAssetRestKeyBytes + counts[kElements] * kAssetRestBytes;
+    const std::uint64_t bytes = kAssetRestKeyBytes + counts[kRest] * kAssetRecords[kRest].bytes;
     if (left < bytes)
       refuseFile(file, "is cut off or damaged: " + std::to_string(left) + " bytes are left for the " +
                            std::to_string(bytes) + " of its static state");
     left -= bytes;
   }
   if (left != 0) refuseFile(file, "is damaged: " + std::to_string(left) + " bytes too many at its end");
-  if (counts[kElements] != counts[kCells])
-    refuseFile(file, "is damaged: " + std::to_string(counts[kCells]) + " cells for " +
-                         std::to_string(counts[kElements]) + " elements; allowed: one an element");
 }
 
 void checkChecksum(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
@@ -168,10 +200,8 @@ void checkChecksum(const std::filesystem::path& file, std::ifstream& stream, std
   if (body.checksum() != header.checksum) refuseFile(file, "is damaged: its checksum does not match");
 }
 
-Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
-               const Header& header) {
+Asset emptyAsset(const AssetCounts& counts) {
   Asset asset;
-  const AssetCounts& counts = header.counts;
   asset.positions.resize(counts[kElements]);
   asset.volumes.resize(counts[kElements]);
   asset.gyrations.resize(counts[kElements]);
@@ -182,20 +212,39 @@ Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::ui
   asset.triangles.resize(counts[kTriangles]);
   asset.faces.resize(counts[kFaces]);
   asset.cells.resize(counts[kCells]);
-  if (header.hasRest) {
+  asset.uvs.resize(counts[kUvs]);
+  asset.materials.resize(counts[kMaterials]);
+  if (counts[kRest] > 0) {
     asset.rest.emplace();
-    asset.rest->displacements.resize(counts[kElements]);
-    asset.rest->rotations.resize(counts[kElements]);
+    asset.rest->displacements.resize(counts[kRest]);
+    asset.rest->rotations.resize(counts[kRest]);
   }
+  return asset;
+}
 
+// Each name ends with a zero.
+std::vector<std::string> splitNames(const std::filesystem::path& file, const std::string& names) {
+  if (!names.empty() && names.back() != '\0')
+    refuseFile(file, "is damaged: the last name of a material has no end");
+  std::vector<std::string> list;
+  for (std::size_t at = 0; at < names.size(); at = names.find('\0', at) + 1)
+    list.push_back(names.substr(at, names.find('\0', at) - at));
+  return list;
+}
+
+Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
+               const Header& header) {
+  Asset asset = emptyAsset(header.counts);
+  std::string names(header.counts[kNameBytes], '\0');
   BodyReader body(file, stream, size - kAssetBodyOffset);
   body.get(asset.radius);
-  AssetCounts again{};
-  for (std::uint64_t& count : again) body.get(count);
-  visitAssetFields(asset, [&body](auto& value) { body.get(value); });
-  if (body.checksum() != header.checksum || again != counts ||
+  AssetCounts again = header.counts;
+  for (std::uint64_t& count : std::span(again).first(header.countsInFile())) body.get(count);
+  visitAssetFields(asset, names, [&body](auto& value) { body.get(value); });
+  if (body.checksum() != header.checksum || again != header.counts ||
       stream.peek() != std::ifstream::traits_type::eof())
     refuseFile(file, "is damaged: it changed while it was being read");
+  asset.materialNames = splitNames(file, names);
   return asset;
 }
 

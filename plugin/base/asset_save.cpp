@@ -5,6 +5,8 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -79,9 +81,9 @@ class Writer {
     if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
     put(std::span<const std::uint8_t>(bytes));
   }
-  template <class Scalar>
-  void put(const Eigen::Matrix<Scalar, 3, 1>& v) {
-    for (int axis = 0; axis < 3; ++axis) put(v[axis]);
+  template <class Scalar, int N>
+  void put(const Eigen::Matrix<Scalar, N, 1>& v) {
+    for (int axis = 0; axis < N; ++axis) put(v[axis]);
   }
   template <std::size_t N>
   void put(const std::array<std::uint32_t, N>& values) {
@@ -125,13 +127,21 @@ void checkTarget(const std::filesystem::path& file) {
     refuseFile(file, "is a pipe, a socket or a device; allowed: a file, old or new");
 }
 
-AssetCounts countsOf(const Asset& asset, const std::filesystem::path& file) {
-  const AssetCounts counts = {asset.positions.size(), asset.springs.size(), asset.anchors.size(),
-                              asset.vertices.size(),  asset.corners.size(), asset.triangles.size(),
-                              asset.faces.size(),     asset.cells.size()};
-  std::uint64_t bytes = kAssetHeaderBytes;
+AssetCounts countsOf(const Asset& asset, std::size_t nameBytes, const std::filesystem::path& file) {
+  const AssetCounts counts = {asset.positions.size(),
+                              asset.springs.size(),
+                              asset.anchors.size(),
+                              asset.vertices.size(),
+                              asset.corners.size(),
+                              asset.triangles.size(),
+                              asset.faces.size(),
+                              asset.cells.size(),
+                              asset.uvs.size(),
+                              asset.materials.size(),
+                              nameBytes,
+                              asset.rest ? asset.positions.size() : 0};
+  std::uint64_t bytes = kAssetLookHeaderBytes + (asset.rest ? kAssetRestKeyBytes : 0);
   for (std::size_t a = 0; a < kAssetArrays; ++a) bytes += counts[a] * kAssetRecords[a].bytes;
-  if (asset.rest) bytes += kAssetRestKeyBytes + counts[kElements] * kAssetRestBytes;
   if (bytes > kMostAssetBytes)
     refuseFile(file, "would have " + std::to_string(bytes) + " bytes; allowed: up to " +
                          std::to_string(kMostAssetBytes));
@@ -143,17 +153,20 @@ AssetCounts countsOf(const Asset& asset, const std::filesystem::path& file) {
 void save(const Asset& asset, const std::filesystem::path& file) {
   asset.validate();
   checkTarget(file);
-  const AssetCounts counts = countsOf(asset, file);
+  const std::string names = nameBytesOf(asset);
+  const AssetCounts counts = countsOf(asset, names.size(), file);
+  const bool hasLook = !asset.uvs.empty() || !asset.materials.empty() || !names.empty();
   PartialFile partial(file);
   Writer writer(partial);
   for (const char letter : kAssetMagic) writer.put(letter);
-  writer.put(asset.rest ? kAssetVersionWithRest : kAssetVersion);
-  writer.put(std::uint32_t(kAssetHeaderBytes));
+  writer.put(hasLook ? kAssetVersionWithLook : asset.rest ? kAssetVersionWithRest : kAssetVersion);
+  writer.put(std::uint32_t(hasLook ? kAssetLookHeaderBytes : kAssetHeaderBytes));
   writer.put(std::uint64_t{0});  // the checksum's place
   writer.startBody();
   writer.put(asset.radius);
-  for (const std::uint64_t count : counts) writer.put(count);
-  visitAssetFields(asset, [&writer](const auto& value) { writer.put(value); });
+  for (const std::uint64_t count : std::span(counts).first(hasLook ? kAssetArrays : kShapeArrays))
+    writer.put(count);
+  visitAssetFields(asset, names, [&writer](const auto& value) { writer.put(value); });
   const std::uint64_t sum = writer.finish();
   partial.seek(kAssetChecksumOffset);
   writer.put(sum);

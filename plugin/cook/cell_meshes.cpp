@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "cook/corner_normals.h"
+#include "rubble/triangle_look.h"
 
 namespace rubble::cooking {
 namespace {
@@ -33,8 +33,11 @@ struct FaceSums {
 
 class CellMeshBuilder {
  public:
-  CellMeshBuilder(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset)
-      : m_mesh(mesh), m_diagram(diagram), m_asset(asset), m_cornerNormals(cornerNormals(mesh)) {}
+  CellMeshBuilder(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
+                  Asset& asset)
+      : m_mesh(mesh), m_look(look), m_diagram(diagram), m_asset(asset) {
+    asset.materialNames = look.materialNames();
+  }
 
   void buildVertices() {
     for (std::size_t v = 0; v < m_diagram.vertices.size(); ++v)
@@ -51,52 +54,53 @@ class CellMeshBuilder {
     result.outerTriangles = std::uint32_t(m_asset.triangles.size()) - result.firstTriangle;
     addPatches(cell);
     for (const std::uint32_t c : m_diagram.capsOf.of(cell)) addCap(cell, m_diagram.caps.caps[c]);
+    giveMaterial(m_asset.innerMaterial());
     result.innerTriangles =
         std::uint32_t(m_asset.triangles.size()) - result.firstTriangle - result.outerTriangles;
     result.faceCount = std::uint32_t(m_asset.faces.size()) - result.firstFace;
   }
 
  private:
+  using CornerKey = std::array<std::uint32_t, 6>;  // vertex, bits of normal and texture coordinates
   using TrianglePolygon = std::pair<std::uint32_t, std::uint32_t>;
 
-  std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal) {
+  std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal,
+                          const Eigen::Vector2f& uv) {
     m_asset.corners.push_back({vertex, cell, normal});
+    if (m_look.hasUvs()) m_asset.uvs.push_back(uv);
     return std::uint32_t(m_asset.corners.size() - 1);
+  }
+
+  std::uint32_t newInnerCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal) {
+    const Eigen::Vector2f uv = m_look.hasUvs() ? boxUv(m_asset.vertices[vertex].position, normal)
+                                               : Eigen::Vector2f(Eigen::Vector2f::Zero());
+    return newCorner(cell, vertex, normal, uv);
+  }
+
+  // To the triangles added since the last call.
+  void giveMaterial(std::uint32_t material) {
+    if (m_look.hasMaterials()) m_asset.materials.resize(m_asset.triangles.size(), std::uint16_t(material));
   }
 
   void addPolygon(std::uint32_t cell, const SurfacePolygon& polygon) {
     m_polygonCorners.clear();
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
       const std::uint32_t vertex = m_diagram.surface.vertices[polygon.first + k];
-      const Eigen::Vector3f normal =
-          surfaceNormal(polygon.triangle, m_diagram.vertices[vertex]).cast<float>();
-      // Neighbouring polygons of the cell share the corner where they agree on the normal.
-      const std::array<std::uint32_t, 4> key = {vertex, std::bit_cast<std::uint32_t>(normal.x()),
-                                                std::bit_cast<std::uint32_t>(normal.y()),
-                                                std::bit_cast<std::uint32_t>(normal.z())};
+      const Eigen::Vector3d& place = m_diagram.vertices[vertex];
+      const Eigen::Vector3f normal = m_look.normal(polygon.triangle, place).cast<float>();
+      const Eigen::Vector2f uv =
+          m_look.hasUvs() ? m_look.uv(polygon.triangle, place) : Eigen::Vector2f(Eigen::Vector2f::Zero());
+      // Neighbouring polygons of the cell share the corner where they agree on normal and texture.
+      const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+      const CornerKey key = {vertex,           bits(normal.x()), bits(normal.y()),
+                             bits(normal.z()), bits(uv.x()),     bits(uv.y())};
       const auto [entry, isNew] = m_outerCorners.try_emplace(key, 0);
-      if (isNew) entry->second = newCorner(cell, vertex, normal);
+      if (isNew) entry->second = newCorner(cell, vertex, normal, uv);
       m_polygonCorners.push_back(entry->second);
     }
     for (std::size_t k = 2; k < m_polygonCorners.size(); ++k)
       m_asset.triangles.push_back({m_polygonCorners[0], m_polygonCorners[k - 1], m_polygonCorners[k]});
-  }
-
-  // The corner normals of a mesh triangle, interpolated.
-  Eigen::Vector3d surfaceNormal(std::uint32_t triangle, const Eigen::Vector3d& place) const {
-    const auto& normals = m_cornerNormals[triangle];
-    if (normals[0] == normals[1] && normals[1] == normals[2]) return normals[0];
-    const auto& [i, j, k] = m_mesh.triangles[triangle];
-    const Eigen::Vector3d& a = m_mesh.vertices[i];
-    const Eigen::Vector3d& b = m_mesh.vertices[j];
-    const Eigen::Vector3d& c = m_mesh.vertices[k];
-    const Eigen::Vector3d& flat = m_mesh.normals[triangle];
-    const double atA = std::max(0.0, flat.dot((b - place).cross(c - place)));
-    const double atB = std::max(0.0, flat.dot((c - place).cross(a - place)));
-    const double atC = std::max(0.0, flat.dot((a - place).cross(b - place)));
-    const Eigen::Vector3d sum = atA * normals[0] + atB * normals[1] + atC * normals[2];
-    const double length = sum.norm();
-    return length > 0 ? Eigen::Vector3d(sum / length) : flat;
+    if (m_look.hasMaterials()) giveMaterial(m_look.material(polygon.triangle));
   }
 
   void addCap(std::uint32_t cell, const Cap& cap) {
@@ -109,7 +113,7 @@ class CellMeshBuilder {
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t k = 0; const std::uint32_t vertex : {a, b, c}) {
         const auto [entry, isNew] = m_capCorners.try_emplace(vertex, 0);
-        if (isNew) entry->second = newCorner(cell, vertex, normal.cast<float>());
+        if (isNew) entry->second = newInnerCorner(cell, vertex, normal.cast<float>());
         triangle[k++] = entry->second;
       }
       m_asset.triangles.push_back(triangle);
@@ -187,19 +191,19 @@ class CellMeshBuilder {
   }
 
   const CheckedMesh& m_mesh;
+  const SurfaceLook& m_look;
   const RestrictedVoronoi& m_diagram;
   Asset& m_asset;
-  const std::vector<std::array<Eigen::Vector3d, 3>> m_cornerNormals;
-  std::map<std::array<std::uint32_t, 4>, std::uint32_t>
-      m_outerCorners;                                   // (vertex, bits of the normal) -> corner
+  std::map<CornerKey, std::uint32_t> m_outerCorners;
   std::map<std::uint32_t, std::uint32_t> m_capCorners;  // vertex -> corner
   std::vector<std::uint32_t> m_polygonCorners, m_queue;
 };
 
 }  // namespace
 
-void buildCellMeshes(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset) {
-  CellMeshBuilder builder(mesh, diagram, asset);
+void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
+                     Asset& asset) {
+  CellMeshBuilder builder(mesh, look, diagram, asset);
   builder.buildVertices();
   asset.cells.reserve(diagram.cellCount());
   for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) builder.buildCell(cell);

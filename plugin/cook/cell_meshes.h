@@ -3,10 +3,12 @@
 
 #include "cook/checked_mesh.h"
 #include "cook/restricted_voronoi.h"
+#include "cook/surface_look.h"
 
 namespace rubble::cooking {
 
-/// Fills vertices, corners, triangles, faces and cells of the asset.
-void buildCellMeshes(const CheckedMesh& mesh, const RestrictedVoronoi& diagram, Asset& asset);
+/// Fills vertices, corners, triangles, faces and cells of the asset, and what the surface's look gives.
+void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
+                     Asset& asset);
 
 }  // namespace rubble::cooking

@@ -14,6 +14,7 @@
 #include "cook/restricted_voronoi.h"
 #include "cook/site_pieces.h"
 #include "cook/springs.h"
+#include "cook/surface_look.h"
 #include "rubble/limits.h"
 
 namespace rubble {
@@ -146,6 +147,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   checkOptions(options);
   report(0, "checking the mesh");
   const CheckedMesh solid = checkMesh(mesh);
+  checkLook(mesh);
 
   auto [elements, diagram] = packAndCut(solid, options, report, log);
   for (const auto& [level, text] : elements.notes)
@@ -162,7 +164,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   if (options.anchorDirection)
     asset.anchors = findAnchors(solid, diagram, pieces, *options.anchorDirection, options.anchorBand);
   checkTies(solid, asset, log);
-  buildCellMeshes(solid, diagram, asset);
+  buildCellMeshes(solid, SurfaceLook(mesh, solid), diagram, asset);
   asset.validate();
   report(1, "done");
   return asset;

@@ -1,6 +1,5 @@
 #include "cook/polygon_file.h"
 
-#include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
@@ -34,8 +33,6 @@ using Polygon = Bounded<std::uint32_t>;
 bool read(std::istream& stream, PolygonFormat format, Bounded<Point>& points, Bounded<Polygon>& polygons) {
   const auto quiet = CGAL::parameters::verbose(false);
   switch (format) {
-    case PolygonFormat::Obj:
-      return CGAL::IO::read_OBJ(stream, points, polygons, quiet);
     case PolygonFormat::Off:
       return CGAL::IO::read_OFF(stream, points, polygons, quiet);
     case PolygonFormat::Ply:

@@ -11,7 +11,7 @@
 
 #include "base/input_file.h"
 #include "base/number_text.h"
-#include "cook/obj_text.h"
+#include "cook/obj_file.h"
 #include "cook/ply_header.h"
 #include "cook/polygon_file.h"
 #include "cook/stl_file.h"
@@ -28,15 +28,29 @@ constexpr std::uint64_t kMostBytes = std::uint64_t(4) << 30;  // some 50 million
 // Ear clipping takes a second for so many corners.
 constexpr std::size_t kMostCorners = 4096;
 
+PolygonSoup parseOff(std::string bytes) {
+  return parsePolygons(std::move(bytes), PolygonFormat::Off);
+}
+
+PolygonSoup parsePly(std::string bytes) {
+  return parsePolygons(plainPly(bytes), PolygonFormat::Ply);
+}
+
+PolygonSoup parseStl(std::string bytes) {
+  if (auto soup = parseBinaryStl(bytes)) return *std::move(soup);
+  return parsePolygons(std::move(bytes), PolygonFormat::Stl);
+}
+
 struct Ending {
   const char* text;
-  PolygonFormat format;
+  PolygonSoup (*parse)(std::string bytes);
   const char* name;
 };
-constexpr std::array<Ending, 4> kEndings = {{{".obj", PolygonFormat::Obj, "OBJ"},
-                                             {".off", PolygonFormat::Off, "OFF"},
-                                             {".ply", PolygonFormat::Ply, "PLY"},
-                                             {".stl", PolygonFormat::Stl, "STL"}}};
+constexpr std::array<Ending, 4> kEndings = {
+    {{".obj", [](std::string bytes) { return parseObj(bytes); }, "OBJ"},
+     {".off", parseOff, "OFF"},
+     {".ply", parsePly, "PLY"},
+     {".stl", parseStl, "STL"}}};
 
 const Ending& endingOf(const std::filesystem::path& file) {
   std::string text = file.extension().string();
@@ -63,12 +77,18 @@ std::string bytesOf(const std::filesystem::path& file) {
   return bytes;
 }
 
-PolygonSoup parse(std::string bytes, PolygonFormat format) {
-  if (format == PolygonFormat::Obj) bytes = plainObj(bytes);
-  if (format == PolygonFormat::Ply) bytes = plainPly(bytes);
-  if (format == PolygonFormat::Stl)
-    if (auto soup = parseBinaryStl(bytes)) return *std::move(soup);
-  return parsePolygons(std::move(bytes), format);
+void checkLooks(const PolygonSoup& soup) {
+  for (std::size_t f = 0; f < soup.looks.size(); ++f)
+    for (const CornerLook& look : soup.looks[f]) {
+      const bool isUvThere = look.uv == kNoLook || look.uv < soup.uvs.size();
+      const bool isNormalThere = look.normal == kNoLook || look.normal < soup.normals.size();
+      if (!isUvThere || !isNormalThere)
+        throw Error("face " + std::to_string(f) + " names a " +
+                    (isUvThere ? "normal that is not there; allowed: those of the file, " +
+                                     std::to_string(soup.normals.size())
+                               : "texture coordinate that is not there; allowed: those of the file, " +
+                                     std::to_string(soup.uvs.size())));
+    }
 }
 
 void check(const PolygonSoup& soup, const char* format) {
@@ -124,11 +144,32 @@ void weld(PolygonSoup& soup) {
 
 // A corner that follows itself goes, and with it a polygon without area: its edges meet each other.
 void dropRepeatedCorners(PolygonSoup& soup) {
-  for (auto& polygon : soup.polygons) {
-    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
-    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
+    std::vector<std::uint32_t>& polygon = soup.polygons[p];
+    std::vector<CornerLook> none;
+    std::vector<CornerLook>& looks = soup.looks.empty() ? none : soup.looks[p];
+    std::size_t corners = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      if (corners > 0 && polygon[k] == polygon[corners - 1]) continue;
+      polygon[corners] = polygon[k];
+      if (!looks.empty()) looks[corners] = looks[k];
+      ++corners;
+    }
+    while (corners > 1 && polygon[0] == polygon[corners - 1]) --corners;
+    if (corners < 3) continue;
+    polygon.resize(corners);
+    if (!looks.empty()) looks.resize(corners);
+    if (kept != p) {
+      soup.polygons[kept] = std::move(polygon);
+      if (!soup.looks.empty()) soup.looks[kept] = std::move(looks);
+      if (!soup.materials.empty()) soup.materials[kept] = soup.materials[p];
+    }
+    ++kept;
   }
-  std::erase_if(soup.polygons, [](const auto& polygon) { return polygon.size() < 3; });
+  soup.polygons.resize(kept);
+  if (!soup.looks.empty()) soup.looks.resize(kept);
+  if (!soup.materials.empty()) soup.materials.resize(kept);
 }
 
 // Newell's: the sum of the corners' cross products, twice the area long whatever the shape.
@@ -141,10 +182,30 @@ Eigen::Vector3d areaVector(const std::vector<std::uint32_t>& polygon,
   return sum;
 }
 
+// What the file says of the polygon's corners, for the triangles from `first` on, into which it was cut.
+void takeOverLooks(const PolygonSoup& soup, std::size_t p, std::size_t first, SurfaceMesh& mesh) {
+  const std::vector<std::uint32_t>& polygon = soup.polygons[p];
+  mesh.normals.resize(mesh.triangles.size(),
+                      {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()});
+  mesh.uvs.resize(mesh.triangles.size(),
+                  {Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()});
+  if (soup.looks[p].empty()) return;
+  for (std::size_t t = first; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = std::find(polygon.begin(), polygon.end(), mesh.triangles[t][k]) - polygon.begin();
+      const CornerLook& look = soup.looks[p][std::size_t(corner)];
+      if (look.normal != kNoLook) mesh.normals[t][k] = soup.normals[look.normal];
+      if (look.uv != kNoLook) mesh.uvs[t][k] = soup.uvs[look.uv];
+    }
+}
+
 SurfaceMesh cutIntoTriangles(PolygonSoup soup) {
   SurfaceMesh mesh;
   mesh.vertices = std::move(soup.points);
-  for (const auto& polygon : soup.polygons) {
+  mesh.materialNames = std::move(soup.materialNames);
+  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
+    const std::vector<std::uint32_t>& polygon = soup.polygons[p];
+    const std::size_t first = mesh.triangles.size();
     const Eigen::Vector3d area = areaVector(polygon, mesh.vertices);
     const double length = area.norm();
     if (polygon.size() > 3 && length > 0 && std::isfinite(length)) {
@@ -152,7 +213,11 @@ SurfaceMesh cutIntoTriangles(PolygonSoup soup) {
     } else {
       triangulateFan(polygon, mesh.triangles);
     }
+    if (!soup.looks.empty()) takeOverLooks(soup, p, first, mesh);
+    if (!soup.materials.empty()) mesh.materials.resize(mesh.triangles.size(), soup.materials[p]);
   }
+  if (soup.normals.empty()) mesh.normals.clear();
+  if (soup.uvs.empty()) mesh.uvs.clear();
   return mesh;
 }
 
@@ -164,8 +229,9 @@ SurfaceMesh readMesh(const std::filesystem::path& file, double scale) {
   std::string bytes = bytesOf(file);
   const Ending& ending = endingOf(file);
   try {
-    PolygonSoup soup = parse(std::move(bytes), ending.format);
+    PolygonSoup soup = ending.parse(std::move(bytes));
     check(soup, ending.name);
+    checkLooks(soup);
     for (Eigen::Vector3d& point : soup.points) point *= scale;
     if (hasOpenEdges(soup)) weld(soup);
     dropRepeatedCorners(soup);

@@ -12,17 +12,23 @@ uint maskOf(uint vertex, uint owner) {
   return bMasks[vertex >> 1] >> ((vertex & 1u) * 16u + owner * 4u) & 15u;
 }
 
-vec3 cellPoint(uint vertex, uint owner) {
+// Place and normal of a copy; the normals turn with the elements that the copy follows, so that the sides of a
+// border between joined cells are lit alike. It is a little
+// shorter than 1 where these turn apart.
+void cellCopy(uint vertex, uint owner, vec3 restNormal, out vec3 place, out vec3 normal) {
   CellVertex cell = bCellVertices[vertex];
   uint mask = maskOf(vertex, owner);
   vec3 sum = vec3(0);
+  normal = vec3(0);
   float weights = 0;
   for (uint j = 0u; j < 4u; ++j) {
     if ((mask >> j & 1u) == 0u) continue;
     uint element = cell.elements[j];
     ElementPose pose = bPoses[element];
     sum += pose.place.xyz + rotate(pose.rotation, cell.position.xyz - bRestCentres[element].xyz);
+    normal += rotate(pose.rotation, restNormal);
     weights += 1;
   }
-  return sum / weights;
+  place = sum / weights;
+  normal /= weights;
 }

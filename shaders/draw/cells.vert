@@ -11,7 +11,7 @@ layout(location = RUBBLE_NORMAL_ATTRIBUTE) in vec4 aNormal;
 void main() {
   uint vertex = aCorner >> 2;
   uint owner = aCorner & 3u;
-  uint element = bCellVertices[vertex].elements[owner];
-  vec3 normal = rotate(bPoses[element].rotation, aNormal.xyz);
-  emitSolid(cellPoint(vertex, owner), normal, bCellVertices[vertex].position.xyz, aNormal.w);
+  vec3 place, normal;
+  cellCopy(vertex, owner, aNormal.xyz, place, normal);
+  emitSolid(place, normal, bCellVertices[vertex].position.xyz, aNormal.w);
 }

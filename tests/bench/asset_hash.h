@@ -1,6 +1,7 @@
 // What the cook made, to the last bit.
 #pragma once
 
+#include <string>
 #include <type_traits>
 
 #include "base/asset_format.h"
@@ -23,7 +24,10 @@ inline void addAsset(base::Fnv1a& hash, const Asset& asset) {
        {asset.positions.size(), asset.springs.size(), asset.anchors.size(), asset.vertices.size(),
         asset.corners.size(), asset.triangles.size(), asset.faces.size(), asset.cells.size()})
     hash.add(count);
-  base::visitAssetFields(asset, add);
+  const std::string names = base::nameBytesOf(asset);
+  for (const std::size_t count : {asset.uvs.size(), asset.materials.size(), names.size()})
+    if (count > 0) hash.add(count);
+  base::visitAssetFields(asset, names, add);
 }
 
 }  // namespace rubble::test

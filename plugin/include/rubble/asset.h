@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rubble {
@@ -94,6 +95,15 @@ struct Asset {
   std::vector<CellFace> faces;  ///< grouped by cell
   std::vector<Cell> cells;      ///< one an element (n)
 
+  // What the mesh said of its look, in lists that can be used as they are; see also rubble/triangle_look.h.
+  /// Texture coordinates, one a corner; none if the mesh had none. The mesh's own on outer faces, boxUv on
+  /// inner ones.
+  std::vector<Eigen::Vector2f> uvs;
+  /// One a triangle: into materialNames on outer faces, innerMaterial() on inner ones. None where all outer
+  /// faces have material 0.
+  std::vector<std::uint16_t> materials;
+  std::vector<std::string> materialNames;  ///< none if the mesh had none
+
   std::optional<AssetRest> rest;  ///< none unless it was asked for
 
   std::size_t elementCount() const { return positions.size(); }
@@ -103,21 +113,26 @@ struct Asset {
   Eigen::AlignedBox3d bounds() const;  ///< of the cell vertices [m]
   double diagonal() const;             ///< of the bounds [m]
 
+  /// The material of inner faces, behind those of the mesh, which has one at least, if without a name.
+  std::uint32_t innerMaterial() const;
+
   /// Faces of one cell.
   std::span<const CellFace> cellFaces(std::size_t element) const;
 
   /// Throws rubble::Error with one line, the field, its index, its value and what is allowed, when a count,
   /// an index or a number is impossible: places beyond 1e9 m, solids over 1e6 m across, radii below 1e-6 m,
   /// elements nearer than half a radius to one another, or volumes, gyrations, areas and places that
-  /// contradict the cell's triangles, or a static state that is not one an element, moves an element farther
-  /// than the solid is large, or turns it by no rotation. `load` has called it already. Linear time.
+  /// contradict the cell's triangles, texture coordinates or materials that are none, or a static state that
+  /// is not one an element, moves an element farther than the solid is large, or turns it by no rotation.
+  /// `load` has called it already. Linear time.
   void validate() const;
 };
 
-/// Writes a versioned little-endian file with sizes and a checksum, version 2 if the asset keeps a static
-/// state and version 1, which earlier libraries read too, if not; the file appears whole or not at all, and
-/// nothing stays beside it. Throws rubble::Error naming the file and the reason: an asset that is not valid
-/// or would take more than 32 GiB, a folder or device of that name, no permission, a full disk.
+/// Writes a versioned little-endian file with sizes and a checksum: version 3 if the asset has texture
+/// coordinates or materials; without them, so that earlier libraries read it too, version 2 if it keeps a
+/// static state and version 1 if not. The file appears whole or not at all, and nothing stays beside it.
+/// Throws rubble::Error naming the file and the reason: an asset that is not valid or would take more than 32
+/// GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
 /// Reads such a file and trusts nothing in it: header, length and checksum are checked before the asset gets
 /// any memory, and the asset is validated. Throws rubble::Error naming the file and what is wrong with it.

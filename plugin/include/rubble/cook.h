@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rubble/asset.h"
@@ -18,6 +19,14 @@ namespace rubble {
 struct SurfaceMesh {
   std::vector<Eigen::Vector3d> vertices;                ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+
+  // What it looks like. Each list has an entry a triangle, its corners in the triangle's order, or none.
+  /// Normals of any length [any unit]; zero where there is none and the cook makes one.
+  std::vector<std::array<Eigen::Vector3f, 3>> normals = {};
+  std::vector<std::array<Eigen::Vector2f, 3>> uvs = {};  ///< texture coordinates, finite
+  std::vector<std::uint16_t> materials = {};             ///< into materialNames
+  /// Up to 65534 names of up to 255 bytes without control characters.
+  std::vector<std::string> materialNames = {};
 };
 
 /// A box with the given full edge lengths [m] about `centre`; 8 vertices, 12 triangles.
@@ -26,9 +35,10 @@ SurfaceMesh boxMesh(const Eigen::Vector3d& size, const Eigen::Vector3d& centre =
 /// Reads the surface in a file of the format that its ending names: .obj, .off, .ply or .stl, as text or, but
 /// for OBJ, binary. `scale` is the length of one unit of the file [m], finite and above 0. Polygons are cut
 /// into triangles. Vertices at exactly the same place become one where the file's own indices leave edges
-/// open, as in every STL and at the seams of textures; nothing else is mended. Normals, texture coordinates,
-/// colours and materials are left out. Throws rubble::Error that names the file and what is wrong with it;
-/// whether the surface is closed is for `cook` to say.
+/// open, as in every STL and at the seams of textures; nothing else is mended. Of OBJ normals, texture
+/// coordinates (0, 0 where a face of a file that has some gives none) and the names behind `usemtl` are read,
+/// not what the material files say of them; other formats give the shape alone. Throws rubble::Error that
+/// names the file and what is wrong with it; whether the surface is closed is for `cook` to say.
 SurfaceMesh readMesh(const std::filesystem::path& file, double scale = 1);
 
 struct CookOptions {
@@ -56,12 +66,13 @@ struct CookOptions {
   double anchorBand = 1e-6;  ///< [m]
 };
 
-/// Cooks a mesh. Parts much thinner than the rest get elements too, at about equal distances: no cell reaches
-/// farther from its element than 3 mean spacings (about 6 radii at the default fill), or a warning says how
-/// far. Where elements are thicker than a wall the radius chosen shrinks, to half at most for the sake of a
-/// few; a warning says which radius or how many elements would do for what protrudes after that. Throws
-/// rubble::Error for meshes that are not closed, not oriented, empty, not finite or that pass through
-/// themselves, and when the elements wanted do not fit.
+/// Cooks a mesh. The outer faces of the cells keep its normals, texture coordinates and materials; where it
+/// has no normals, they are smooth over edges of less than 30 degrees. Parts much thinner than the rest get
+/// elements too, at about equal distances: no cell reaches farther from its element than 3 mean spacings
+/// (about 6 radii at the default fill), or a warning says how far. Where elements are thicker than a wall the
+/// radius chosen shrinks, to half at most for the sake of a few; a warning says which radius or how many
+/// elements would do for what protrudes after that. Throws rubble::Error for meshes that are not closed, not
+/// oriented, empty, not finite or that pass through themselves, and when the elements wanted do not fit.
 Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
            const LogFunction& log = {});
 

@@ -112,7 +112,7 @@ TEST_F(AssetFile, IsRefusedWithAnyBitFlipped) {
 TEST_F(AssetFile, OfAnotherVersionIsRefusedByName) {
   std::string bytes = m_bytes;
   bytes[kVersionAt] = 77;
-  expectRefused(bytes, "has asset version 77; this library reads versions 1 and 2");
+  expectRefused(bytes, "has asset version 77; this library reads versions 1 to 3");
 }
 
 TEST_F(AssetFile, OfAnotherKindIsRefusedByName) {

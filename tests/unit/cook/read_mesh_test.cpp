@@ -193,7 +193,7 @@ TEST_F(ReadMesh, RefusesNumbersThatAreNotFinite) {
 TEST_F(ReadMesh, RefusesFacesThatNameNoVertex) {
   expectError("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
               "face 0 names a vertex that is not there");
-  expectError("before.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "holds no faces");
+  expectError("before.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "line 4 is no face");
   expectError("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "face 0 has 2 corners; allowed: 3 to 4096");
 }
 
