@@ -288,20 +288,25 @@ std::pair<double, double> meanAndMost(int blows, Gain&& gain) {
 // Where a corner slides into the next cell and where another side of a box becomes the nearest, the energy
 // goes on and only the force jumps: what is left is an error of the step, of its first order.
 TYPED_TEST(FaceContact, EdgesAndCornersKeepTheirEnergyButForTheStep) {
+#ifdef RUBBLE_SANITIZED  // the same code in every blow
+  constexpr int kBlows = 4;
+#else
+  constexpr int kBlows = 40;
+#endif
   const auto blocks = [](double safety) {
-    return meanAndMost(40, [=](Numbers& n) { return gainOfABlockAtABox<TypeParam>(n, safety); });
+    return meanAndMost(kBlows, [=](Numbers& n) { return gainOfABlockAtABox<TypeParam>(n, safety); });
   };
   const auto boxes = [](double safety) {
-    return meanAndMost(40, [=](Numbers& n) { return gainOfABoxOnASlab<TypeParam>(n, safety); });
+    return meanAndMost(kBlows, [=](Numbers& n) { return gainOfABoxOnASlab<TypeParam>(n, safety); });
   };
   const auto [blockMean, blockMost] = blocks(0.9);
   EXPECT_LT(blockMean, 0.01);
   EXPECT_LT(blockMost, 0.05);
-  EXPECT_LT(blocks(0.3).first, 0.7 * blockMean);
+  if (kBlows > 4) EXPECT_LT(blocks(0.3).first, 0.7 * blockMean);
   const auto [boxMean, boxMost] = boxes(0.9);
   EXPECT_LT(boxMean, 0.02);
   EXPECT_LT(boxMost, 0.1);
-  EXPECT_LT(boxes(0.3).first, 0.7 * boxMean);
+  if (kBlows > 4) EXPECT_LT(boxes(0.3).first, 0.7 * boxMean);
 }
 
 TYPED_TEST(FaceContact, FirstSeenDeepGivesNoKick) {

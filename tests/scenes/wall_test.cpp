@@ -68,9 +68,9 @@ TEST(Wall, BallGetsWhatTheElementsGive) {
 }
 
 TEST(Wall, SameSeedSameHashesOnAnyNumberOfThreads) {
-  const std::vector<std::string> one = hashesOf(runWall({kThroughTheWall}, 1));
-  ASSERT_EQ(one.size(), 12u);
-  EXPECT_EQ(one, hashesOf(runWall({kThroughTheWall}, 2)));
+  const std::vector<std::string> one = hashesOf(runWall({kCompared}, 1));
+  ASSERT_EQ(one.size(), kComparedFrames);
+  EXPECT_EQ(one, hashesOf(runWall({kCompared}, 2)));
 }
 
 // Mass [kg] of grains of one size R [m].
