@@ -8,6 +8,7 @@
 #include "bullet/coupler_constraint.h"
 #include "bullet/element_shape.h"
 #include "bullet/host_settings.h"
+#include "bullet/load_gauge.h"
 #include "bullet/whole_shape.h"
 #include "debris/spawn.h"
 #include "rubble/destructible_body.h"
@@ -22,13 +23,18 @@ struct DestructibleBody::Impl {
     Thawing,  // the elements', from within a tick of Bullet's; Bullet's part follows at its end
   };
   State state = State::Elements;
-  bullet::WholeShape whole;            ///< without a shape while the body is not to be whole
-  bool held = false;                   ///< by anchors
-  int flags = 0;                       ///< Bullet's of collision, from before the thaw
-  bullet::HostSettings settings;       ///< from before the thaw
-  double restTime = 0;                 ///< since it was last too restless to be whole [s]
-  bool struck = false;                 ///< while whole: by the application
-  Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
+  bullet::WholeShape whole;                   ///< without a shape while the body is not to be whole
+  bool held = false;                          ///< by anchors
+  int flags = 0;                              ///< Bullet's of collision, from before the thaw
+  bullet::HostSettings settings;              ///< from before the thaw
+  double restTime = 0;                        ///< since it was last too restless to be whole [s]
+  bool struck = false;                        ///< while whole: by the application, or overloaded
+  std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
+  std::vector<bullet::ContactPatch> patches;  ///< on it while whole, of this tick
+  double thawLoad = 0;                        ///< share of strength for which it thawed; 0: not by a load
+  double survivedLoad = 0;                    ///< the largest of these from which it came back whole
+  double easeTime = 0;                        ///< for which it is still eased into a load [s]
+  Destruction::Impl* world = nullptr;         ///< null once the Destruction is gone
   std::uint32_t id = 0;
   std::shared_ptr<const Asset> asset;
   rubble::Material material;

@@ -2,6 +2,9 @@
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <LinearMath/btQuickprof.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
 #include "bullet/thaw.h"
@@ -42,7 +45,8 @@ void Destruction::Impl::freezeCalm(double dt) {
     if (own.state != DestructibleBody::Impl::State::Elements || !own.whole.shape) continue;
     const std::optional<edem::Unrest> unrest = solver->unrest(own.id);
     const bool calm = unrest && isCalm(*unrest, bullet::strikingSpeed(own.material), solver->radius(own.id));
-    own.restTime = calm ? own.restTime + dt : 0;
+    const bool eased = own.easeTime > 0;  // and would bend further
+    own.restTime = calm && !eased ? own.restTime + dt : 0;
     if (own.restTime > kRestTime) freeze(*body);
   }
 }
@@ -53,6 +57,8 @@ void Destruction::Impl::freeze(DestructibleBody& body) {
   const edem::ParkedMotion motion = *solver->park(own.id);
   own.state = DestructibleBody::Impl::State::Whole;
   ++wholes;
+  own.survivedLoad = std::max(own.survivedLoad, std::exchange(own.thawLoad, 0));
+  own.gauge->reset();
   const Eigen::Isometry3d at = motion.place * own.whole.frame;
   bullet::beRigid(body, toBullet(at));
   bullet::restore(body, own.settings, world.getGravity());

@@ -70,6 +70,9 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
     if (def.log) def.log(LogLevel::Info, own.name + ": cannot be Bullet's until it is struck: " + reason);
     return;
   }
+  own.gauge = std::make_unique<bullet::LoadGauge>(
+      bullet::sectionsOf(*own.asset, own.whole.frame, own.whole.elementCentre, view.mass, view.inertia),
+      own.material, own.model);
   own.state = DestructibleBody::Impl::State::Whole;
   ++wholes;
   bullet::beNewRigid(body, bodyDef.transform * toBullet(own.whole.frame));
@@ -145,6 +148,7 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   own.state = DestructibleBody::Impl::State::Thawing;
   own.struck = false;
   own.calmTime = own.restTime = 0;
+  if (own.thawLoad > 0) beginEasing(body);
   --wholes;
   own.speed = solver->maxSpeed(own.id);
   own.shape->refit(own.speed * dt);

@@ -272,6 +272,7 @@ void Destruction::Impl::finish(double dt) {
     const base::ScopeTimer timer(times.debris);
     stepDebris(dt);
   }
+  noteLoads(dt);
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
@@ -393,9 +394,10 @@ void Destruction::Impl::updateSleep(double dt) {
   BT_PROFILE("Rubble update sleep");
   for (DestructibleBody* body : bodies) {
     if (body->isWhole()) continue;
+    ease(*body, dt);
     const std::uint32_t id = body->id();
     const double speed = body->impl().speed = solver->maxSpeed(id);
-    const bool quiet = def.sleep && speed < kQuietSpeed;
+    const bool quiet = def.sleep && speed < kQuietSpeed && !(body->impl().easeTime > 0);
     double& calm = body->impl().calmTime;
     calm = speed < kCalmSpeed ? calm + dt : 0;
     solver->setSettling(id, def.sleep && calm > kCalmTime ? kSettleRate : 0);

@@ -105,7 +105,13 @@ struct Destruction::Impl {
   bool isStruck(DestructibleBody& body, btCollisionObject& other, double dt);
   void thawStruck(double dt);
   void thaw(DestructibleBody& body, double dt);
+  /// Looks at the loads that rest on whole bodies; those that may break them thaw in the next tick.
+  void noteLoads(double dt);
+  void gatherPatches(double dt);
   void finishThaws();
+  /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
+  void beginEasing(DestructibleBody& body);
+  void ease(DestructibleBody& body, double dt);
   void placeWholes();
   /// Lends bodies that have been calm for long enough to Bullet again.
   void freezeCalm(double dt);

@@ -104,6 +104,11 @@ class SolverOf final : public Solver {
     m_world.bodies[placeOf(id)]->settleDamping = rate;
   }
 
+  void setEasing(std::uint32_t id, double rate) override {
+    assert(rate >= 0);
+    m_world.bodies[placeOf(id)]->easeDamping = rate;
+  }
+
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
     if (body.asleep == asleep) return;

@@ -1,0 +1,107 @@
+// Loads that rest on bodies that Bullet moves, and bodies that thaw under them.
+#include <LinearMath/btQuickprof.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bullet/body_impl.h"
+#include "bullet/convert.h"
+#include "bullet/load_gauge.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toEigen;
+
+// A load is left to the elements when beam theory finds this share of the strength: it knows nothing of what
+// gathers stress, nor of where in Bullet's contacts the load really is.
+constexpr double kLoadShare = 0.5;
+// What a body has survived was the estimate's fault: it thaws again for this many times as much.
+constexpr double kMoreThanSurvived = 1.5;
+// A share below which a body that nothing touches has forgotten its loads.
+constexpr double kForgotten = 1e-3;
+// Elements begin unbent under a load that has been there all along, and would swing to twice the bending.
+// Their deformation is damped at this rate, in frequencies of the slowest bending: a fifth of what a bending
+// beam moves is deformation, so that this is over-critical for a load of up to thirty times its mass. Bending
+// then takes about ten of 1 / frequency to come; it is left five times that.
+constexpr double kEaseRate = 50, kEaseTimes = 50;
+
+// Bullet's axes of the body, about its elements' centre.
+Eigen::Isometry3d loadFrame(const DestructibleBody& body) {
+  return toEigen(body.getWorldTransform()) * Eigen::Translation3d(body.impl().whole.elementCentre);
+}
+
+// Bullet's solver leaves the impulses of points that it does not see as they were.
+bool isSolved(const btPersistentManifold& manifold) {
+  if (manifold.getNumContacts() == 0) return false;
+  if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) return false;
+  // Elements' points get theirs from us.
+  if (upcastElements(manifold.getBody0()) || upcastElements(manifold.getBody1())) return true;
+  btScalar nearest = BT_LARGE_FLOAT;
+  for (int p = 0; p < manifold.getNumContacts(); ++p)
+    nearest = std::min(nearest, manifold.getContactPoint(p).getDistance());
+  return nearest <= manifold.getContactProcessingThreshold();
+}
+
+}  // namespace
+
+void Destruction::Impl::gatherPatches(double dt) {
+  const btDispatcher& dispatcher = *world.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold =
+        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(m);
+    if (!isSolved(manifold)) continue;
+    for (const bool second : {false, true}) {
+      const btCollisionObject* object = second ? manifold.getBody1() : manifold.getBody0();
+      DestructibleBody* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
+      if (!body || !body->isWhole() || !body->isActive()) continue;
+      if (auto patch = bullet::contactPatch(manifold, second, loadFrame(*body), dt))
+        body->impl().patches.push_back(std::move(*patch));
+    }
+  }
+}
+
+void Destruction::Impl::noteLoads(double dt) {
+  if (wholes == 0 || !(dt > 0)) return;
+  BT_PROFILE("Rubble note loads");
+  gatherPatches(dt);
+  for (DestructibleBody* body : bodies) {
+    DestructibleBody::Impl& own = body->impl();
+    if (!body->isWhole() || !body->isActive()) continue;
+    if (own.patches.empty() && !own.held && own.gauge->share() < kForgotten) {
+      own.gauge->reset();
+      continue;
+    }
+    const Eigen::Matrix3d into = loadFrame(*body).linear().transpose();
+    bullet::RestingLoad load;
+    load.contacts = own.patches;
+    load.spin = into * toEigen(body->getAngularVelocity());
+    load.gravity = into * toEigen(world.getGravity());
+    load.held = own.held;
+    own.gauge->note(load, dt);
+
+    const double share = own.gauge->share();
+    own.patches.clear();
+    if (!(share > std::max(kLoadShare, kMoreThanSurvived * own.survivedLoad))) continue;
+    own.struck = true;
+    own.thawLoad = share;
+  }
+}
+
+void Destruction::Impl::beginEasing(DestructibleBody& body) {
+  const double frequency = body.impl().gauge->slowestBending();
+  body.impl().easeTime = kEaseTimes / frequency;
+  solver->setEasing(body.id(), kEaseRate * frequency);
+}
+
+void Destruction::Impl::ease(DestructibleBody& body, double dt) {
+  double& left = body.impl().easeTime;
+  if (!(left > 0)) return;
+  left -= dt;
+  if (!(left > 0)) solver->setEasing(body.id(), 0);
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble
