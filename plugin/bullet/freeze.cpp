@@ -26,13 +26,15 @@ constexpr double kMotionShare = 0.5;
 constexpr double kTrembleShare = 0.2;
 // No spring holds more than this share of its tensile strength: what a load nearly breaks stays elements.
 constexpr double kStressShare = 0.5;
-// No element jumps further when the body takes its rest shape [radii].
+// No element jumps further when the body takes its rest shape, and nothing is further in it, which Bullet
+// would throw out [radii].
 constexpr double kJumpRadii = 0.1;
 constexpr double kRestTime = 0.25;
 
 bool isCalm(const edem::Unrest& unrest, double strikingSpeed, double radius) {
   return unrest.speed < kMotionShare * strikingSpeed && unrest.trembling < kTrembleShare * strikingSpeed &&
-         unrest.stress < kStressShare && unrest.deformation < kJumpRadii * radius;
+         unrest.stress < kStressShare && unrest.deformation < kJumpRadii * radius &&
+         unrest.overlap < kJumpRadii * radius;
 }
 
 }  // namespace

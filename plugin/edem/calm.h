@@ -11,9 +11,10 @@ struct Unrest {
   double deformation = 0;  ///< furthest that an element is from where it would be parked [m]
   /// Largest tension that the energy of a spring makes on its face, over the tensile strength; dimensionless.
   double stress = 0;
+  double overlap = 0;  ///< furthest that its cells and a rigid body are in each other [m]
 };
 
-/// Of a body of one fragment.
+/// Of a body of one fragment, but for its overlap.
 template <class Real>
 Unrest unrestOf(const Body<Real>& body);
 

@@ -745,6 +745,18 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
 }
 
 template <class Real>
+double RigidContacts<Real>::overlapOf(std::size_t place) const {
+  double deepest = 0;
+  for (const Candidate& c : m_candidates)
+    if (c.body == place) deepest = std::max(deepest, c.faces.deepest);
+  for (const ProxyState& state : m_states)
+    for (const CornerMemory& corner : state.corners)
+      if (place < m_ids.size() && corner.body == m_ids[place])
+        deepest = std::max(deepest, corner.pressed + corner.sunk);
+  return deepest;
+}
+
+template <class Real>
 double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
   double fastest = 0;
   for (std::size_t i = 0; i < m_proxies.size(); ++i) {

@@ -63,6 +63,8 @@ class RigidContacts {
   double endContactsOf(std::uint32_t id);
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
+  /// Furthest that the cells of a body, by its place, and a rigid body are in each other [m].
+  double overlapOf(std::size_t place) const;
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 

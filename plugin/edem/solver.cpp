@@ -130,7 +130,9 @@ class SolverOf final : public Solver {
   }
   std::optional<Unrest> unrest(std::uint32_t id) const override {
     if (!mayPark(of(id))) return std::nullopt;
-    return unrestOf(of(id));
+    Unrest unrest = unrestOf(of(id));
+    unrest.overlap = m_world.rigid.overlapOf(placeOf(id));
+    return unrest;
   }
   void place(std::uint32_t id, const Eigen::Isometry3d& place) override {
     placeParked(*m_world.bodies[placeOf(id)], place);
