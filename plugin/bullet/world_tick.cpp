@@ -209,6 +209,8 @@ void Destruction::Impl::advance(double dt) {
   BT_PROFILE("Rubble advance");
   followSleep();
   substeps = 0;
+  failSpoiled();
+  if (!failure.empty()) return;
   thawStruck(dt);
   if (!solver->anyAwake()) return;
   advanced = true;
@@ -275,7 +277,9 @@ void Destruction::Impl::finish(double dt) {
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
-  placeWholes();
+  holdElements();
+  failSpoiled();
+  if (failure.empty()) placeWholes();
   updateSleep(dt);
   advanced = lookedForBlows = false;
 }
@@ -304,6 +308,30 @@ void Destruction::Impl::failSolver() {
     if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
   }
   failure = text;
+}
+
+// By the application, a joint or a neighbour: elements would follow.
+void Destruction::Impl::failSpoiled() {
+  for (const DestructibleBody* body : bodies) {
+    if (!body->isWhole()) continue;
+    const btTransform& at = body->getWorldTransform();
+    if (toEigen(at).matrix().allFinite() && toEigen(body->getLinearVelocity()).allFinite() &&
+        toEigen(body->getAngularVelocity()).allFinite())
+      continue;
+    fail(*body,
+         "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
+         "what "
+         "set it, or for forces and joints on it");
+  }
+}
+
+void Destruction::Impl::holdElements() {
+  for (DestructibleBody* body : bodies) {
+    if (body->isWhole()) continue;
+    const bool still = body->getWorldTransform() == btTransform::getIdentity() &&
+                       body->getLinearVelocity().isZero() && body->getAngularVelocity().isZero();
+    if (!still) bullet::stopInBullet(*body);
+  }
 }
 
 // Crushed elements become debris and dust (paper 3.2, 3.3).

@@ -96,6 +96,10 @@ struct Destruction::Impl {
   void bookEvents();
   void breakElements();
   void failSolver();
+  /// Ends the simulation where a whole body's place or motion in Bullet is not finite.
+  void failSpoiled();
+  /// Undoes what the application or Bullet has set of bodies that their elements move.
+  void holdElements();
   void closeLedger(double dt);
   void fail(const DestructibleBody& body, const std::string& what);
   void stepDebris(double dt);
