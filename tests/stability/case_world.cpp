@@ -99,6 +99,7 @@ void CaseWorld::addDestructible(const std::shared_ptr<const Asset>& asset, const
     m_lightest = m_lightest > 0 ? std::min(m_lightest, m) : m;
   }
   m_mass += mass;
+  m_elementsPut += std::max(0.0, m_bullet.destruction->ledger().elastic - before);
   if (body->isWhole()) return;
   const Eigen::Vector3d v(double(def.velocity.x()), double(def.velocity.y()), double(def.velocity.z())),
       w(double(def.spin.x()), double(def.spin.y()), double(def.spin.z()));
@@ -108,7 +109,6 @@ void CaseWorld::addDestructible(const std::shared_ptr<const Asset>& asset, const
     m_elementsPut += 0.5 * material.density * asset->volumes[i] *
                      (own.squaredNorm() + asset->gyrations[i] * w.squaredNorm());
   }
-  m_elementsPut += std::max(0.0, m_bullet.destruction->ledger().elastic - before);
 }
 
 void CaseWorld::build() {
@@ -174,6 +174,9 @@ void CaseWorld::addImpactor() {
   const double mass = kinematic ? 0 : m_case.massRatio * elementMass(m_case);
   m_mass += mass;
   m_impactor = m_bullet.add(btScalar(mass), *m_shape, vector(at));
+  // Bullet's gyroscopic term takes the product of three inertias, which for hills is more than a float holds.
+  if (std::pow(double(m_impactor->getLocalInertia().length()), 3) > double(std::numeric_limits<float>::max()))
+    m_impactor->setFlags(m_impactor->getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
   m_impactor->setFriction(btScalar(m_case.friction));
   m_impactor->setRestitution(btScalar(m_case.restitution));
   if (kinematic) {

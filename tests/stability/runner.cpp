@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
@@ -20,7 +21,8 @@ constexpr double kFloat = std::numeric_limits<float>::epsilon();
 
 class Run {
  public:
-  explicit Run(const Case& c) : m_case(c), m_world(c) {}
+  Run(const Case& c, std::function<void(const std::string&)> trace)
+      : m_case(c), m_world(c), m_trace(std::move(trace)) {}
 
   Outcome take() {
     try {
@@ -47,6 +49,7 @@ class Run {
       m_outcome.work += double(destruction.lastSubsteps()) * destruction.counts().elements;
       if (!destruction.failure().empty()) break;
       judge(dt);
+      if (m_trace) m_trace(lineOf(tick, dt));
     }
     m_outcome.ticks = tick;
     close();
@@ -55,6 +58,22 @@ class Run {
 
  private:
   static constexpr int kHappeningTick = 3;
+
+  std::string lineOf(int tick, double dt) const {
+    const Destruction& destruction = *m_world.bullet().destruction;
+    const Ledger& l = destruction.ledger();
+    const DestructionCounts counts = destruction.counts();
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "tick %d dt %.3g substeps %d: kinetic %.4g elastic %.4g gravity %.4g exchanged %.4g debris %.4g "
+        "dissipated %.4g fracture %.4g removed %.4g error %.2g made %.3g J | rigid %.4g J | put %.4g held "
+        "%.4g J | broken %u crushed %u awake %u",
+        tick, dt, destruction.lastSubsteps(), l.kinetic, l.elastic, l.gravity, l.exchanged, l.debris,
+        l.dissipated, l.fracture, l.removed, l.energyError, l.made, rigidKinetic(), m_outcome.energyPut,
+        m_outcome.energyHeld, counts.springsBroken, counts.crushed, counts.awake);
+    return text;
+  }
 
   void violate(const std::string& what) { m_outcome.violations.push_back(what); }
 
@@ -203,6 +222,7 @@ class Run {
 
   Case m_case;
   CaseWorld m_world;
+  std::function<void(const std::string&)> m_trace;
   Outcome m_outcome;
   double m_put = 0;      // without gravity's work on elements, which the ledger has [J]
   double m_mostPut = 0;  // [J]
@@ -218,8 +238,8 @@ const char* nameOf(Outcome::Kind kind) {
   return kNames.at(std::size_t(kind));
 }
 
-Outcome run(const Case& c) {
-  return Run(c).take();
+Outcome run(const Case& c, const std::function<void(const std::string&)>& trace) {
+  return Run(c, trace).take();
 }
 
 }  // namespace rubble::test

@@ -3,6 +3,7 @@
 // is loaded, or the run stops and says why.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ const char* nameOf(Outcome::Kind kind);
 /// library's own alarm, for what long ticks and Bullet's own fixing of positions bring.
 inline constexpr double kEnergyTolerance = 0.05;
 
-Outcome run(const Case& c);
+/// `trace`, if any, gets a line about each tick.
+Outcome run(const Case& c, const std::function<void(const std::string&)>& trace = {});
 
 }  // namespace rubble::test

@@ -26,11 +26,11 @@ TEST_P(StabilityLong, StepsAreFiniteAndMakeNoEnergyOrSayWhy) {
 INSTANTIATE_TEST_SUITE_P(CasesFrom, StabilityLong, testing::Range(0, kCases, kBlock));
 
 // Prints the case before it runs, for one that does not come back.
-CaseResult show(int number) {
+CaseResult show(int number, const std::function<void(const std::string&)>& trace = {}) {
   const Case c = stabilityCase(number);
   std::printf("%s\n", describe(c).c_str());
   std::fflush(stdout);
-  const Outcome outcome = run(c);
+  const Outcome outcome = run(c, trace);
   std::printf("  %s after %d ticks, work %.3g, put %.4g J, held %.4g J%s%s\n", nameOf(outcome.kind),
               outcome.ticks, outcome.work, outcome.energyPut, outcome.energyHeld,
               outcome.said.empty() ? "" : ": ", outcome.said.c_str());
@@ -52,7 +52,13 @@ int write(const char* file) {
 
 int main(int argc, char** argv) {
   if (argc == 3 && std::strcmp(argv[1], "--case") == 0)
-    return rubble::test::show(std::atoi(argv[2])).outcome.violations.empty() ? 0 : 1;
+    return rubble::test::show(
+               std::atoi(argv[2]),
+               [](const std::string& l) {
+                 std::printf("  %s\n", l.c_str());
+               }).outcome.violations.empty()
+               ? 0
+               : 1;
   if (argc == 3 && std::strcmp(argv[1], "--write") == 0) return rubble::test::write(argv[2]);
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
