@@ -47,9 +47,11 @@ void Destruction::Impl::fixPositions() {
   }
 }
 
-// Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs.
+// Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs. Where nothing
+// has weight nothing is borne: what is slow there turns back on the elements.
 bool Destruction::Impl::isHeld(const btRigidBody& rigid) const {
   const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
+  if (!(least > 0)) return false;
   return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
     return r.body == &rigid && r.linear.length() > least;
   });

@@ -1,9 +1,32 @@
 #include "bullet/body_states.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
+namespace {
+
+constexpr int kGyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
+                            BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+
+// Bullet's gyroscopic term takes the product of the three inertias. Of a concrete cube from 110 m on that is
+// more than a float holds, and the term is 0; from 2.2 km on it is not a number.
+bool hasGyroscopicTerm(const btVector3& inertia) {
+  return std::isfinite(inertia.x() * inertia.y() * inertia.z());
+}
+
+}  // namespace
+
+void stopInBullet(DestructibleBody& body) {
+  const btVector3 none(0, 0, 0);
+  body.setWorldTransform(btTransform::getIdentity());
+  body.setInterpolationWorldTransform(btTransform::getIdentity());
+  body.setLinearVelocity(none);
+  body.setAngularVelocity(none);
+  body.setInterpolationLinearVelocity(none);
+  body.setInterpolationAngularVelocity(none);
+}
 
 void beElements(DestructibleBody& body) {
   ElementShape& shape = *body.impl().shape;
@@ -11,13 +34,8 @@ void beElements(DestructibleBody& body) {
   shape.calculateLocalInertia(btScalar(body.impl().whole.mass), inertia);
   body.setCollisionShape(&shape);
   body.setMassProps(btScalar(body.impl().whole.mass), inertia);
-  body.setWorldTransform(btTransform::getIdentity());
-  body.setInterpolationWorldTransform(btTransform::getIdentity());
   const btVector3 none(0, 0, 0);
-  body.setLinearVelocity(none);
-  body.setAngularVelocity(none);
-  body.setInterpolationLinearVelocity(none);
-  body.setInterpolationAngularVelocity(none);
+  stopInBullet(body);
   body.clearForces();
   body.setGravity(none);
   body.setLinearFactor(none);
@@ -25,7 +43,7 @@ void beElements(DestructibleBody& body) {
   body.updateInertiaTensor();
   // Bullet's solver makes no contact rows against this body; its manifolds are ours.
   body.setContactProcessingThreshold(-BT_LARGE_FLOAT);
-  body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
+  body.setFlags((body.getFlags() & ~kGyroscopic) | BT_DISABLE_WORLD_GRAVITY);
   body.forceActivationState(DISABLE_DEACTIVATION);
 }
 
@@ -42,6 +60,7 @@ void beNewRigid(DestructibleBody& body, const btTransform& at) {
   beRigid(body, at);
   body.setFriction(btScalar(std::max(0.0, body.material().friction)));
   body.setRestitution(btScalar(body.material().restitution));
+  if (!hasGyroscopicTerm(body.impl().whole.inertia)) body.setFlags(body.getFlags() & ~kGyroscopic);
   if (!body.impl().held) return;
   body.setLinearFactor({0, 0, 0});
   body.setAngularFactor({0, 0, 0});

@@ -75,7 +75,10 @@ btVector3 DestructibleBody::linearMomentum() const {
 }
 
 btVector3 DestructibleBody::angularMomentum() const {
-  if (isWhole()) return getInvInertiaTensorWorld().inverse() * getAngularVelocity();
+  if (isWhole()) {  // not by Bullet's inverse tensor: that of a hill has no inverse in floats
+    const btMatrix3x3& turn = getWorldTransform().getBasis();
+    return turn * (m_impl->whole.inertia * (getAngularVelocity() * turn));
+  }
   const edem::Solver& solver = *m_impl->world->solver;
   const edem::BodyView view = solver.view(m_impl->id);
   double mass = 0;

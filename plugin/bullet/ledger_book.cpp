@@ -72,6 +72,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.exchanged = books.bullet.work.done() - m_push.received.energy - (m_surfaceWork - m_push.given.energy);
   l.dissipated =
       -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy - m_surfaceWork;
+  m_lostByElements = -books.dissipated.done() + books.massDamped + books.fracture + books.slept;
   l.fracture = books.fracture - m_given;
   l.removed = books.slept + m_dust.kinetic + m_removed.kinetic;
   m_largestEnergy =

@@ -28,6 +28,9 @@ class LedgerBook {
   /// At the end of each tick.
   void close(const edem::Books& books, const debris::Motion& debris);
   const Ledger& ledger() const { return m_ledger; }
+  /// What elements lost by dashpots, friction, restitution, breaks and sleep. Below 0: what should take
+  /// energy made some [J].
+  double lostByElements() const { return m_lostByElements; }
 
  private:
   double momentumScale(const edem::Books& books, const debris::Motion& debris);
@@ -42,6 +45,7 @@ class LedgerBook {
   double m_exchangedSize = 0;                           // sum of all |impulse| up to the last close [N s]
   double m_largestMomentum = 0, m_largestExchange = 0;  // in the world; in one tick [N s]
   double m_largestEnergy = 0;                           // [J]
+  double m_lostByElements = 0;                          // [J]
 };
 
 RUBBLE_ABI_END

@@ -15,7 +15,9 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "base/hash.h"
 #include "bullet/convert.h"
@@ -73,6 +75,13 @@ std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& p
   }
   edem::listCorners(*hull);
   return hull;
+}
+
+// What an application or a joint has spoiled would spoil the elements.
+bool isFinite(const edem::RigidProxy& proxy) {
+  return proxy.position.allFinite() && proxy.orientation.coeffs().allFinite() && proxy.velocity.allFinite() &&
+         proxy.spin.allFinite() && proxy.acceleration.allFinite() && proxy.angularAcceleration.allFinite() &&
+         std::isfinite(proxy.inverseMass) && proxy.inverseInertia.allFinite();
 }
 
 // Turns y to the axis `up`.
@@ -268,7 +277,13 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
     proxy.angularAcceleration =
         toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
   }
-  addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), proxy.parts);
+  if (isFinite(proxy)) {
+    addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), proxy.parts);
+  } else if (m_log && !std::exchange(m_toldOfNumbers, true)) {
+    m_log(LogLevel::Warning,
+          "a rigid body's place, velocity or forces are not finite numbers: it does not touch destructible "
+          "bodies while they are so");
+  }
   return proxy;
 }
 

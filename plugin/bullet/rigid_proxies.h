@@ -23,7 +23,7 @@ class RigidProxies {
   explicit RigidProxies(LogFunction log) : m_log(std::move(log)) {}
 
   /// Position, motion and surface of an object now. Shapes that are not supported (triangle meshes, height
-  /// fields) leave `parts` empty and are logged once.
+  /// fields), and objects whose numbers are not finite, leave `parts` empty and are logged once.
   edem::RigidProxy make(const btCollisionObject& object);
 
  private:
@@ -46,6 +46,7 @@ class RigidProxies {
   LogFunction m_log;
   std::unordered_map<const btCollisionShape*, CachedHull> m_hulls;  // looked up by key only
   std::vector<int> m_refused;                                       // shape types already logged
+  bool m_toldOfNumbers = false;                                     // logged that some are not finite
 };
 
 RUBBLE_ABI_END

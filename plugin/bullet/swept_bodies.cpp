@@ -4,6 +4,7 @@
 #include <LinearMath/btAabbUtil2.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bullet/body_impl.h"
@@ -22,7 +23,8 @@ double surfaceSpeed(const btCollisionObject& object, double dt) {
   const btScalar gained = btScalar(dt) * rigid->getInvMass() * rigid->getTotalForce().length();
   const btScalar turning =
       rigid->getAngularVelocity().length() * rigid->getCollisionShape()->getAngularMotionDisc();
-  return double(rigid->getLinearVelocity().length() + gained + turning);
+  const auto speed = double(rigid->getLinearVelocity().length() + gained + turning);
+  return std::isfinite(speed) ? speed : 0;  // what is not finite touches nothing (RigidProxies)
 }
 
 // Fastest element or object that may strike an element in this tick [m/s]. Of all bodies: what one throws may

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -28,6 +29,10 @@ using bullet::toEigen;
 // sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
 // is damped at this rate [1/s].
 constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
+// A run stops when dashpots, friction and restitution made more than this share of the energy in the world:
+// more than was put in. A blow that lasts has up to a tenth for a while (a crate of 50 kg on a slab), for
+// energy that restitution withholds while the surface still nears counts only as it parts.
+constexpr double kRunaway = 0.5;
 
 }  // namespace
 
@@ -209,6 +214,8 @@ void Destruction::Impl::advance(double dt) {
   BT_PROFILE("Rubble advance");
   followSleep();
   substeps = 0;
+  failSpoiled();
+  if (!failure.empty()) return;
   thawStruck(dt);
   if (!solver->anyAwake()) return;
   advanced = true;
@@ -276,7 +283,9 @@ void Destruction::Impl::finish(double dt) {
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
-  placeWholes();
+  holdElements();
+  failSpoiled();
+  if (failure.empty()) placeWholes();
   updateSleep(dt);
   advanced = lookedForBlows = false;
 }
@@ -286,8 +295,23 @@ void Destruction::Impl::closeLedger(double dt) {
   if (!advanced || !failure.empty()) return;
   const auto lines = energyAlarm.end(touched, proxies, dt, ledgerBook.ledger().energyScale);
   ledgerBook.addMade(energyAlarm.made(), energyAlarm.told());
-  if (!def.log) return;
-  for (const std::string& line : lines) def.log(LogLevel::Warning, line);
+  if (def.log)
+    for (const std::string& line : lines) def.log(LogLevel::Warning, line);
+  judgeDamping();
+}
+
+void Destruction::Impl::judgeDamping() {
+  const double made = -ledgerBook.lostByElements(), most = ledgerBook.ledger().energyScale;
+  if (bodies.empty() || !(made > kRunaway * most)) return;
+  const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
+    return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
+  };
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "what should take energy from the elements, of which its are the fastest, made %.3g J of the "
+                "%.3g J in the world; lower substepSafety, or raise the material's restitution",
+                made, most);
+  fail(**std::max_element(bodies.begin(), bodies.end(), slower), text);
 }
 
 // The first failure counts.
@@ -305,6 +329,30 @@ void Destruction::Impl::failSolver() {
     if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
   }
   failure = text;
+}
+
+// By the application, a joint or a neighbour: elements would follow.
+void Destruction::Impl::failSpoiled() {
+  for (const DestructibleBody* body : bodies) {
+    if (!body->isWhole()) continue;
+    const btTransform& at = body->getWorldTransform();
+    if (toEigen(at).matrix().allFinite() && toEigen(body->getLinearVelocity()).allFinite() &&
+        toEigen(body->getAngularVelocity()).allFinite())
+      continue;
+    fail(*body,
+         "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
+         "what "
+         "set it, or for forces and joints on it");
+  }
+}
+
+void Destruction::Impl::holdElements() {
+  for (DestructibleBody* body : bodies) {
+    if (body->isWhole()) continue;
+    const bool still = body->getWorldTransform() == btTransform::getIdentity() &&
+                       body->getLinearVelocity().isZero() && body->getAngularVelocity().isZero();
+    if (!still) bullet::stopInBullet(*body);
+  }
 }
 
 // Crushed elements become debris and dust (paper 3.2, 3.3).

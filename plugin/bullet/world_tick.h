@@ -96,7 +96,13 @@ struct Destruction::Impl {
   void bookEvents();
   void breakElements();
   void failSolver();
+  /// Ends the simulation where a whole body's place or motion in Bullet is not finite.
+  void failSpoiled();
+  /// Undoes what the application or Bullet has set of bodies that their elements move.
+  void holdElements();
   void closeLedger(double dt);
+  /// Ends the simulation when what should take energy makes more than was put in.
+  void judgeDamping();
   void fail(const DestructibleBody& body, const std::string& what);
   void stepDebris(double dt);
   /// Lends a new body to Bullet, if it may be.
