@@ -26,15 +26,16 @@ constexpr double kMotionShare = 0.5;
 constexpr double kTrembleShare = 0.2;
 // No spring holds more than this share of its tensile strength: what a load nearly breaks stays elements.
 constexpr double kStressShare = 0.5;
-// No element jumps further when the body takes its rest shape, and nothing is further in it, which Bullet
-// would throw out [radii].
+// No element jumps further when the body takes its rest shape [radii].
 constexpr double kJumpRadii = 0.1;
+// Nothing is further in it: Bullet would push it out, a fifth of the way in its next tick [radii].
+constexpr double kOverlapRadii = 0.2;
 constexpr double kRestTime = 0.25;
 
 bool isCalm(const edem::Unrest& unrest, double strikingSpeed, double radius) {
   return unrest.speed < kMotionShare * strikingSpeed && unrest.trembling < kTrembleShare * strikingSpeed &&
          unrest.stress < kStressShare && unrest.deformation < kJumpRadii * radius &&
-         unrest.overlap < kJumpRadii * radius;
+         unrest.overlap < kOverlapRadii * radius;
 }
 
 }  // namespace
