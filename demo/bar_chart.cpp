@@ -17,7 +17,8 @@ constexpr double kRight = 60;    // for the number behind the longest bar
 constexpr double kWidth = kLabels + kPlot + kRight;
 constexpr double kTop = 74;  // title, legend and the axis' numbers
 constexpr double kBar = 9, kRow = 2 * kBar + 8;
-constexpr double kLine = 16;  // of the notes
+constexpr double kLine = 16;           // of the notes
+constexpr std::size_t kLetters = 130;  // of a note's line, about 6 pixels each
 
 constexpr const char* kFirstColour = "#8a8a8a";
 constexpr const char* kSecondColour = "#1f6fb4";
@@ -43,6 +44,20 @@ std::string escaped(const std::string& text) {
     }
   }
   return out;
+}
+
+// SVG breaks no lines by itself.
+std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) {
+    std::istringstream words(note);
+    lines.emplace_back();
+    for (std::string word; words >> word;) {
+      if (!lines.back().empty() && lines.back().size() + 1 + word.size() > kLetters) lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+    }
+  }
+  return lines;
 }
 
 // Powers of ten around all numbers, at least one decade.
@@ -124,7 +139,8 @@ void drawBar(Svg& svg, const LogAxis& axis, double y, const std::optional<double
 std::string svgOf(const BarChart& chart) {
   const LogAxis axis(chart.rows);
   const double bottom = kTop + kRow * double(chart.rows.size());
-  Svg svg(bottom + kLine * double(chart.notes.size() + 1));
+  const std::vector<std::string> notes = wrapped(chart.notes);
+  Svg svg(bottom + kLine * double(notes.size() + 1));
   drawHead(svg, chart);
   drawAxis(svg, axis, bottom);
   double y = kTop;
@@ -135,7 +151,7 @@ std::string svgOf(const BarChart& chart) {
     drawBar(svg, axis, y + 2 + kBar, row.second, kSecondColour);
     y += kRow;
   }
-  for (const std::string& note : chart.notes) svg.text(kBar, y += kLine, note);
+  for (const std::string& note : notes) svg.text(kBar, y += kLine, note);
   return svg.finish();
 }
 

@@ -207,6 +207,20 @@ TEST(BarChart, BarsAreLogarithmic) {
   EXPECT_GT(lengths[3], lengths[2]);
 }
 
+TEST(BarChart, LongNotesAreBrokenBetweenWords) {
+  const std::string half(70, 'x');  // two of them and a space are longer than the line of 130 letters
+  const std::string svg = demo::svgOf({.title = "t",
+                                       .axis = "a",
+                                       .first = "one",
+                                       .second = "two",
+                                       .rows = {{"x", 1, 10}},
+                                       .notes = {half + " " + half}});
+  EXPECT_EQ(svg.find(half + " "), std::string::npos);
+  const auto first = svg.find(half);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(svg.find(half, first + half.size()), std::string::npos);
+}
+
 TEST(Csv, CellsWithCommasAndQuotesAreQuoted) {
   EXPECT_EQ(demo::csvTable({{"a", "b"}, {"1,2", "say \"no\""}}), "a,b\n\"1,2\",\"say \"\"no\"\"\"\n");
 }
