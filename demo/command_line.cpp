@@ -95,6 +95,26 @@ void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
   cook->add_option("--seed", options.seed, "of the packing, default 1")->check(CLI::NonNegativeNumber);
 }
 
+void addBench(CLI::App& app, BenchPaperOptions& options, Raw& raw) {
+  CLI::App* bench = app.add_subcommand("bench", "how fast it is beside others: paper");
+  bench->require_subcommand(1);
+  CLI::App* paper = bench->add_subcommand(
+      "paper",
+      "Table 1 of the paper, its frames a second beside those of this machine, and its figures 6 to 8");
+  paper->add_option("--frames", options.frames, "of each run, default 60");
+  paper->add_option(
+      "--size", raw.size,
+      "WIDTHxHEIGHT of the largest picture, default the paper's 1280x720; (a) has shares of it");
+  paper->add_option("--most-elements", options.mostElements, "leave out runs of more elements")
+      ->check(CLI::NonNegativeNumber);
+  paper->add_flag("--no-render", raw.noRender, "leave out runs with pictures; no OpenGL");
+  paper->add_option("--threads", options.threads, "of the dust grid")->check(CLI::Range(1, kMostThreads));
+  addPath(*paper, "--csv", options.csv, "the table as comma-separated values");
+  addPath(*paper, "--svg", options.svg, "the table as a bar chart");
+  addPath(*paper, "--write", options.write,
+          "Markdown file: writes the table between the markers of this very bench");
+}
+
 void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
   addCook(app, line.cook, raw);
 
@@ -122,9 +142,12 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
       ->allow_extra_args(false);
   addPath(*report, "--write", line.report.write,
           "Markdown file: writes the table between the markers of this very report");
+
+  addBench(app, line.benchPaper, raw);
 }
 
 CommandLine::Command command(const CLI::App& app) {
+  if (app.got_subcommand("bench")) return CommandLine::Command::BenchPaper;
   if (app.got_subcommand("cook")) return CommandLine::Command::Cook;
   if (app.got_subcommand("view")) return CommandLine::Command::View;
   if (app.got_subcommand("info")) return CommandLine::Command::Info;
@@ -147,7 +170,7 @@ void checkAsset(const CommandLine& line) {
 CommandLine parseCommandLine(int argc, char** argv) {
   CommandLine line;
   Raw raw;
-  line.run.threads = defaultThreads();
+  line.run.threads = line.benchPaper.threads = defaultThreads();
   CLI::App app("Rubble: destruction for Bullet", "rubble");
   app.set_version_flag("--version", RUBBLE_VERSION);
   app.require_subcommand(1);
@@ -166,6 +189,11 @@ CommandLine parseCommandLine(int argc, char** argv) {
   if (line.command == CommandLine::Command::Cook) {
     if (line.cook.mesh.empty()) throw InputError("MESH", "", "is empty, must be a path");
     if (raw.anchor) line.cook.anchor = parseDirection("--anchor", *raw.anchor);
+    return line;
+  }
+  if (line.command == CommandLine::Command::BenchPaper) {
+    line.benchPaper.render = !raw.noRender;
+    parseSize(raw.size, line.benchPaper.width, line.benchPaper.height);
     return line;
   }
   if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/bench_paper.h"
 #include "demo/cook.h"
 #include "demo/report.h"
 #include "demo/run.h"
@@ -13,13 +14,14 @@
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report, Cook };
+  enum class Command { Run, View, Info, Report, BenchPaper, Cook };
   Command command = Command::Run;
-  std::string scene;  ///< empty for Cook
+  std::string scene;  ///< empty for BenchPaper and Cook
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
+  BenchPaperOptions benchPaper;
   CookFileOptions cook;
 };
 

@@ -1,5 +1,7 @@
 #include "demo/frame.h"
 
+#include <utility>
+
 #include "base/stopwatch.h"
 #include "demo/input_error.h"
 #include "demo/picture_writer.h"
@@ -15,7 +17,8 @@ void stepDust(FrameParts& parts, const Events& events) {
 
 void drawFrame(FrameParts& parts, int frame) {
   parts.stage->draw(parts.camera, parts.framebuffer->target());
-  parts.pictures->save(frame, parts.framebuffer->readPixels());
+  Image image = parts.framebuffer->readPixels();  // waits until it is drawn
+  if (parts.pictures) parts.pictures->save(frame, std::move(image));
 }
 
 // The scene was accepted: what the library refuses now is a state that went wrong.

@@ -18,8 +18,8 @@ struct FrameParts {
   Recorder* recorder = nullptr;
   DustGrid* dust = nullptr;
   Stage* stage = nullptr;
-  Framebuffer* framebuffer = nullptr;  // pictures are drawn into it and saved; a window draws by itself
-  PictureWriter* pictures = nullptr;
+  Framebuffer* framebuffer = nullptr;  // pictures are drawn into it; a window draws by itself
+  PictureWriter* pictures = nullptr;   // null: they are drawn and not saved
   Camera camera = {};
   std::vector<DustObstacle> obstacles = {};  // kept from frame to frame for its memory
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "base/hash.h"
 #include "demo/console.h"
+#include "demo/csv_table.h"
 #include "demo/frame.h"
 #include "demo/input_error.h"
 #include "demo/machine.h"
@@ -12,6 +12,7 @@
 #include "demo/marked_text.h"
 #include "demo/output_file.h"
 #include "demo/progress.h"
+#include "demo/settings_hash.h"
 
 namespace rubble::demo {
 namespace {
@@ -115,32 +116,13 @@ std::vector<Column> columnsOf(const std::vector<Sweep>& sweeps, const std::vecto
   return columns;
 }
 
-// A CSV field; JSON values hold commas and quotes.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + '"';
-}
-
-std::string csvOf(const std::vector<Column>& columns) {
-  std::ostringstream text;
-  for (const Column& c : columns) text << (&c == &columns.front() ? "" : ",") << quoted(c.name);
-  text << '\n';
-  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
-    for (const Column& c : columns) text << (&c == &columns.front() ? "" : ",") << quoted(c.values[row]);
-    text << '\n';
-  }
-  return text.str();
-}
-
-std::string markdownOf(const std::vector<Column>& columns) {
+TextRows rowsOf(const std::vector<Column>& columns, std::string Column::*heading) {
   TextRows rows(1 + columns.front().values.size());
   for (const Column& c : columns) {
-    rows[0].push_back(c.title);
+    rows[0].push_back(c.*heading);
     for (std::size_t row = 0; row < c.values.size(); ++row) rows[row + 1].push_back(c.values[row]);
   }
-  return markdownTable(rows);
+  return rows;
 }
 
 // The arguments that make this report again.
@@ -175,19 +157,7 @@ std::vector<Sweep> defaultSweeps() {
 }
 
 std::string reportHash(const ReportOptions& options, std::span<const SolverVersion> versions) {
-  base::Fnv1a hash;
-  const auto add = [&](const std::string& text) { hash.add(std::as_bytes(std::span(text))); };
-  for (const Scene& scene : scenesOf(options)) {
-    for (const std::string& line : listScene(scene)) {
-      const bool isLook = line.starts_with("camera.") || line.starts_with("light.");
-      if (!isLook) add(line + "\n");
-    }
-  }
-  for (const SolverVersion& version : versions) {
-    add(version.precision);
-    for (const std::uint64_t part : {version.world, version.debris, version.dust}) hash.add(part);
-  }
-  return hashText(hash.value());
+  return settingsHash(scenesOf(options), versions);
 }
 
 void report(const ReportOptions& options, std::ostream& out) {
@@ -207,9 +177,9 @@ void report(const ReportOptions& options, std::ostream& out) {
     outcomes.push_back(measure(scene, progress, share * double(outcomes.size()), share));
 
   const std::vector<Column> columns = columnsOf(sweepsOf(options), outcomes);
-  const std::string markdown = markdownOf(columns);
+  const std::string markdown = markdownTable(rowsOf(columns, &Column::title));
   out << markdown;
-  writeWhole(csv, csvOf(columns));
+  writeWhole(csv, csvTable(rowsOf(columns, &Column::name)));
   out << "table: " << csv.string() << '\n';
   if (!document) return;
   document->replace(markdown + "\nMilliseconds are of one core of " + machineName() + ".\n",

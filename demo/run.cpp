@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "demo/canvas.h"
 #include "demo/console.h"
 #include "demo/frame.h"
 #include "demo/input_error.h"
@@ -12,37 +13,9 @@
 #include "demo/picture_writer.h"
 #include "demo/progress.h"
 #include "demo/summary.h"
-#include "demo/window/egl_context.h"
-#include "rubble/machine_error.h"
 
 namespace rubble::demo {
 namespace {
-
-// The context of a run with pictures, and what they are drawn into. Made before the long work: a machine that
-// cannot draw says so at once.
-struct Canvas {
-  explicit Canvas(const RunOptions& options) : framebuffer(options.width, options.height) {}
-  EglContext context;  // outlives what is made in it
-  Framebuffer framebuffer;
-};
-
-std::unique_ptr<Canvas> makeCanvas(const RunOptions& options) {
-  if (!options.render) return nullptr;
-  try {
-    return std::make_unique<Canvas>(options);
-  } catch (const Error& error) {
-    throw MachineError("OpenGL: " + std::string(error.what()) + "; --no-render does without");
-  }
-}
-
-// Whatever stops it here is the machine's: the context is too poor, or its shaders are not installed.
-std::unique_ptr<Stage> makeStage(const World& world) {
-  try {
-    return std::make_unique<Stage>(world, world.scene());
-  } catch (const Error& error) {
-    throw MachineError(error.what());
-  }
-}
 
 std::string movieName(const Scene& scene) {
   return scene.name + ".mp4";
@@ -97,7 +70,7 @@ Summary runScene(const Scene& scene, const RunOptions& given, std::ostream& repo
   checkOutputs(scene, options);
   std::optional<PictureList> list;
   if (options.render) list.emplace(options.out, movieName(scene)).requireFree(scene.frames);
-  const std::unique_ptr<Canvas> canvas = makeCanvas(options);
+  const std::unique_ptr<Canvas> canvas = options.render ? makeCanvas(options.width, options.height) : nullptr;
   const std::unique_ptr<DustGrid> dust =
       makeDust(scene, canvas ? currentRenderer() : Renderer3D::None, options.threads);
   World world(scene, cookWithProgress(scene, options.log), options.log);

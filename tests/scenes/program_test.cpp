@@ -68,7 +68,23 @@ TEST_F(Program, EveryBadArgumentIsExitCode2AndOneLine) {
                                 "report small.json --sweep seed",
                                 "report small.json --sweep 'fps=60;0'",
                                 "report small.json --write none.md",
-                                "report small.json --write small.json"}) {
+                                "report small.json --write small.json",
+                                "bench",
+                                "bench others",
+                                "bench paper wall",
+                                "bench paper --frames 0",
+                                "bench paper --frames many",
+                                "bench paper --size 12",
+                                "bench paper --most-elements 127",
+                                "bench paper --most-elements -1",
+                                "bench paper --threads 0",
+                                "bench paper --csv none/a.csv",
+                                "bench paper --svg .",
+                                "bench paper --csv ''",
+                                "bench paper --csv a --svg ./a",
+                                "bench paper --csv small.json --write small.json",
+                                "bench paper --write small.json",
+                                "bench paper --write none.md"}) {
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments;
     const auto errors = result.error.rfind("rubble: error: ");
@@ -264,6 +280,18 @@ TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
                         "spin": [10000, 10000, -10000], "anchor": [0, -1, 0],
                         "material": {"youngs_modulus": 1000, "density": 100000}}]})",
        "kilograms; its own weight pulls at its top with 16 MPa, more than its tensile strength of 200 kPa");
+}
+
+// Before the first of its runs, most of which draw.
+TEST_F(Program, WithoutEglABenchWithPicturesIsRefusedAtOnce) {
+  const std::string preload =
+      "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" WITHOUT_EGL " " RUBBLE_PROGRAM;
+  const ChildResult result =
+      runChild("cd " + m_folder.path().string() + " && " + preload + " bench paper --frames 1 --csv a.csv",
+               m_folder.path());
+  expectError(result, 1, "libEGL.so.1 cannot be loaded; --no-render does without");
+  EXPECT_EQ(lines(result.error), 1) << result.error;
+  EXPECT_FALSE(exists("a.csv"));
 }
 
 // Said before the long work, which would announce itself.
