@@ -12,7 +12,7 @@
 namespace rubble::test {
 namespace {
 
-constexpr std::size_t kElements = 12;
+constexpr std::size_t kBallElements = 12;
 constexpr std::size_t kLookHeaderBytes = kHeaderBytes + 4 * 8;
 // Which of the header's counts.
 constexpr std::size_t kUvs = 8, kMaterials = 9, kNameBytes = 10, kRest = 11;
@@ -26,14 +26,14 @@ class LookSection : public testing::Test {
     std::filesystem::create_directories(m_folder);
     m_file = m_folder / "box.asset";
     SurfaceMesh mesh = boxMesh({1, 1, 1});
-    save(cookStrictly(mesh, optionsFor(kElements)), m_file);
+    save(cookStrictly(mesh, optionsFor(kBallElements)), m_file);
     m_bare = fileBytes(m_file);
     mesh.materialNames = {"one", "two"};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       mesh.materials.push_back(std::uint16_t(t / 2 % 2));  // of both triangles of a side
       mesh.uvs.push_back({Eigen::Vector2f(0, 0), Eigen::Vector2f(1, float(t)), Eigen::Vector2f(0.1f, -3e9f)});
     }
-    m_asset = cookStrictly(mesh, optionsFor(kElements));
+    m_asset = cookStrictly(mesh, optionsFor(kBallElements));
     save(m_asset, m_file);
     m_bytes = fileBytes(m_file);
     m_uvsAt = m_bytes.size() - kNames - 2 * m_asset.materials.size() - 8 * m_asset.uvs.size();
@@ -81,8 +81,8 @@ TEST_F(LookSection, ComesBackBitByBit) {
 TEST_F(LookSection, ComesBackWithAStaticStateAndInEveryPart) {
   AssetRest rest;
   rest.key = 7;
-  rest.displacements.assign(kElements, Eigen::Vector3d(0, 1e-4, 0));
-  rest.rotations.assign(kElements, Eigen::Quaterniond::Identity());
+  rest.displacements.assign(kBallElements, Eigen::Vector3d(0, 1e-4, 0));
+  rest.rotations.assign(kBallElements, Eigen::Quaterniond::Identity());
   constexpr unsigned kHasUvs = 1, kHasNames = 2, kHasMaterials = 4;
   for (const unsigned parts : {0u, kHasUvs, kHasNames, kHasUvs | kHasNames, kHasNames | kHasMaterials}) {
     Asset asset = m_asset;
@@ -123,7 +123,7 @@ TEST_F(LookSection, WithAbsurdCountsIsRefusedBeforeAllocating) {
     for (const std::uint64_t value : {std::uint64_t(1) << 60, ~std::uint64_t(0), std::uint64_t(1) << 33})
       expectHas(refusalWith(kCountsAt + 8 * count, value), "do not fit into the file's");
   expectHas(refusalWith(kCountsAt + 8 * kRest, ~std::uint64_t(0)), "static states of 18446744073709551615");
-  expectHas(refusalWith(kCountsAt + 8 * kRest, std::uint64_t(kElements)),
+  expectHas(refusalWith(kCountsAt + 8 * kRest, std::uint64_t(kBallElements)),
             "0 bytes are left for the 680 of its static");
   // A file of nothing but names.
   std::string bytes = m_bytes + std::string(std::size_t(17) << 20, '\0');
