@@ -51,12 +51,12 @@ TEST_F(AssertDeathTest, BreakingRefusesASpringThatIsBrokenAlready) {
 TEST_F(AssertDeathTest, MotionRefusesAStepThatIsNotFinite) {
   const std::span<const edem::Vec3<double>> listed(m_body.position);
   const double never = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_DEATH(edem::integrate(m_body, 1e-4, never, kNoGravity, listed, m_books), "isfinite");
+  EXPECT_DEATH(edem::integrate(m_body, 1e-4, never, kNoGravity, listed, kNoGravity, m_books), "isfinite");
 }
 
 TEST_F(AssertDeathTest, MotionRefusesPlacesOfAnotherBody) {
   const std::span<const edem::Vec3<double>> listed(m_body.position.data(), 1);
-  EXPECT_DEATH(edem::integrate(m_body, 1e-4, 1e-4, kNoGravity, listed, m_books), "listed.size");
+  EXPECT_DEATH(edem::integrate(m_body, 1e-4, 1e-4, kNoGravity, listed, kNoGravity, m_books), "listed.size");
 }
 
 TEST_F(AssertDeathTest, AContactRefusesANormalThatIsNotUnit) {
