@@ -131,7 +131,8 @@ std::size_t headerBytesOf(const std::filesystem::path& file, std::uint32_t versi
 Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
   const std::vector<std::uint8_t> bytes = readStart(file, stream, size);
   const std::size_t start = std::min(bytes.size(), kAssetMagic.size());
-  if (std::memcmp(bytes.data(), kAssetMagic.data(), start) != 0) refuseFile(file, "is not a rubble asset");
+  if (!std::equal(bytes.begin(), bytes.begin() + std::ptrdiff_t(start), kAssetMagic.begin()))
+    refuseFile(file, "is not a rubble asset");
   const auto requireBytes = [&](std::size_t count) {
     if (bytes.size() < count)
       refuseFile(file, "is cut off, or not an asset: it has " + std::to_string(size) +
