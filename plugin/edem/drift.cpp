@@ -68,9 +68,13 @@ class Groups {
   void join() {
     for (bool more = true; more;) {
       more = false;
-      for (std::size_t b = 0; b < m_bodies; ++b)
-        for (std::size_t other = b + 1; other < m_things.size(); ++other)
-          more = (m_things[b].group != m_things[other].group && meet(b, other) && unite(b, other)) || more;
+      for (std::size_t b = 0; b < m_bodies; ++b) {
+        for (std::size_t other = b + 1; other < m_things.size(); ++other) {
+          if (m_things[b].group == m_things[other].group || !meet(b, other)) continue;
+          unite(b, other);
+          more = true;
+        }
+      }
     }
   }
 
@@ -90,7 +94,7 @@ class Groups {
            box.intersects(way(m_things[other]));
   }
 
-  bool unite(std::size_t a, std::size_t b) {
+  void unite(std::size_t a, std::size_t b) {
     const std::size_t from = m_things[b].group, to = m_things[a].group;
     bool moves = true;
     double mass = 0;
@@ -107,7 +111,6 @@ class Groups {
       thing.moves = moves;
       thing.velocity = moves && mass > 0 ? Eigen::Vector3d(momentum / mass) : Eigen::Vector3d::Zero();
     }
-    return true;
   }
 
   std::vector<Thing>& m_things;

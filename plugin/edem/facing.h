@@ -2,7 +2,7 @@
 //
 // A vertex of vector area a presses a side of normal n with the weight -a . n. Where another side becomes the
 // nearest the weight would jump, and the energy k_n weight depth^2 / 2 with it: a block thrown at the edge of
-// a box came back with five times its energy. So n is a mean of the near sides' normals that goes over from
+// a box came back with six times its energy. So n is a mean of the near sides' normals that goes over from
 // one to the other, and the weight's slope is a force.
 #pragma once
 

@@ -7,8 +7,9 @@
 
 namespace rubble::edem {
 
-/// Nearest point of the exposed faces that a ball at `centre` sees: from inside the cell all of them, from
-/// outside those whose front it is at. Axes of the element at rest, about its centre.
+/// Nearest point of the exposed faces that a ball at `centre` sees: from outside those whose front it is at;
+/// from inside the cell all of them, by their planes, for the surface goes on in the next cell. Axes of the
+/// element at rest, about its centre.
 struct NearestFace {
   NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
               const Eigen::Vector3d& centre, double radius);

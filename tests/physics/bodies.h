@@ -39,10 +39,12 @@ inline edem::BodyDef block(const std::array<int, 3>& cubes, bool anchored = fals
 }
 
 template <class Real>
-std::unique_ptr<edem::Solver> makeSolver(bool breaking = true) {
+std::unique_ptr<edem::Solver> makeSolver(bool breaking = true,
+                                         double substepSafety = edem::SolverDef{}.substepSafety) {
   edem::SolverDef def;
   def.breaking = breaking;
   def.crushing = breaking;
+  def.substepSafety = substepSafety;
   return edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, def);
 }
 

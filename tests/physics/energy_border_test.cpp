@@ -23,11 +23,7 @@ class EnergyBorder : public ::testing::Test {
 TYPED_TEST_SUITE(EnergyBorder, Scalars);
 
 TYPED_TEST(EnergyBorder, StaticBallThatGrowsMakesAllThatTheElementsHave) {
-  edem::SolverDef definition;
-  definition.breaking = definition.crushing = false;
-  definition.substepSafety = 0.3;
-  this->solver =
-      edem::Solver::make(std::is_same_v<TypeParam, float> ? Precision::Float : Precision::Double, definition);
+  this->solver = makeSolver<TypeParam>(false, 0.3);
   this->solver->addBody(block({2, 2, 2}), kNoGravity);
   std::vector<edem::RigidProxy> proxies = {ball(0.3, 1, {0.2, 0.71, 0.2}, {0, 0, 0})};
   proxies[0].inverseMass = 0;

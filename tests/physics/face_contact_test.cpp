@@ -216,11 +216,7 @@ TYPED_TEST(FaceContact, ABlockBouncingOffARoundBodyKeepsItsEnergy) {
 // fixed box.
 template <class Real>
 double gainOfABlockAtABox(Numbers& numbers, double safety) {
-  edem::SolverDef solverDef;
-  solverDef.breaking = solverDef.crushing = false;
-  solverDef.substepSafety = safety;
-  const auto solver =
-      edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, solverDef);
+  const auto solver = makeSolver<Real>(false, safety);
   edem::BodyDef def = block({2, 2, 2});
   const double speed = 4 + 3.5 * numbers.next();
   const Eigen::Vector3d axis = numbers.vector(1).normalized();
@@ -240,11 +236,7 @@ double gainOfABlockAtABox(Numbers& numbers, double safety) {
 // The same of boxes that tumble onto a slab, with corners and edges that slide over its cells.
 template <class Real>
 double gainOfABoxOnASlab(Numbers& numbers, double safety) {
-  edem::SolverDef solverDef;
-  solverDef.breaking = solverDef.crushing = false;
-  solverDef.substepSafety = safety;
-  const auto solver =
-      edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, solverDef);
+  const auto solver = makeSolver<Real>(false, safety);
   solver->addBody(block({6, 1, 6}, true), kNoGravity);
   const double speed = 4 + 3.5 * numbers.next(), mass = 58;
   edem::RigidProxy thrown;

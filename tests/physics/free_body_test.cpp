@@ -153,7 +153,8 @@ TEST(Drift, ABlowBetweenWhatFallsIsThatAtRest) {
   }
 }
 
-// However fast they come: what stands is met, by elements and by a ball that they fall with.
+// However fast they come: what stands is met, by elements and by a ball that they fall with. Two cubes of 19
+// kg on k_n = 3e6 N/m are stopped from 40 m/s in 0.143 m, their centres 0.1 m above their faces.
 TEST(Drift, WhatFallsFastMeetsWhatStands) {
   for (const bool onPlane : {false, true}) {
     const auto solver = makeSolver<double>(false);

@@ -1,6 +1,8 @@
 // The asset file's layout, written down a second time on purpose, and tools to forge files.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +13,8 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "rubble/asset.h"
+#include "rubble/error.h"
 
 namespace rubble::test {
 
@@ -41,6 +45,26 @@ inline void seal(std::string& bytes) {
 
 inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
+}
+
+/// What the loader says of a file; empty if it takes it.
+inline std::string refusal(const std::filesystem::path& file) {
+  try {
+    load(file);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+/// The same of these bytes, sealed, in that file.
+inline std::string refusalOf(const std::filesystem::path& file, std::string bytes) {
+  seal(bytes);
+  writeBytes(file, bytes);
+  return refusal(file);
+}
+
+inline void expectHas(const std::string& text, const std::string& words) {
+  EXPECT_NE(text.find(words), std::string::npos) << '"' << text << "\" lacks: " << words;
 }
 
 enum class NumberKind { Index, Float, Double };

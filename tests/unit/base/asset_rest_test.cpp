@@ -41,20 +41,6 @@ class RestSection : public testing::Test {
   }
   ~RestSection() override { std::filesystem::remove_all(m_folder); }
 
-  std::string refusalOf(std::string bytes) const {
-    seal(bytes);
-    writeBytes(m_file, bytes);
-    try {
-      load(m_file);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  }
-  static void expectHas(const std::string& text, const std::string& words) {
-    EXPECT_NE(text.find(words), std::string::npos) << '"' << text << "\" lacks: " << words;
-  }
-
   std::filesystem::path m_folder, m_file;
   Asset m_asset;
   std::string m_bare, m_bytes;  // the files without and with it
@@ -84,13 +70,13 @@ TEST_F(RestSection, IsOptionalAndOfItsOwnVersion) {
 
 TEST_F(RestSection, OfAWrongLengthIsRefused) {
   for (const std::size_t cut : {std::size_t(1), std::size_t(8), kRestBytes - 1, kRestBytes})
-    expectHas(refusalOf(m_bytes.substr(0, m_bytes.size() - cut)),
+    expectHas(refusalOf(m_file, m_bytes.substr(0, m_bytes.size() - cut)),
               "box.asset: is cut off or damaged: " + std::to_string(kRestBytes - cut) +
                   " bytes are left for the " + std::to_string(kRestBytes) + " of its static state");
-  expectHas(refusalOf(m_bytes + std::string(56, '\0')), "56 bytes too many at its end");
+  expectHas(refusalOf(m_file, m_bytes + std::string(56, '\0')), "56 bytes too many at its end");
   std::string renamed = m_bytes;  // the section is there, the version says that it is not
   setNumber(renamed, kVersionAt, std::uint32_t(1));
-  expectHas(refusalOf(renamed), std::to_string(kRestBytes) + " bytes too many at its end");
+  expectHas(refusalOf(m_file, renamed), std::to_string(kRestBytes) + " bytes too many at its end");
 }
 
 TEST_F(RestSection, WithAChangedBitIsRefused) {
@@ -104,14 +90,14 @@ TEST_F(RestSection, WithAChangedBitIsRefused) {
 
 // With a right checksum: every number of it by itself.
 TEST_F(RestSection, WithAbsurdNumbersIsRefused) {
-  ASSERT_EQ(refusalOf(m_bytes), "");
+  ASSERT_EQ(refusalOf(m_file, m_bytes), "");
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t numbers = m_bare.size() + 8, rotations = numbers + kElements * 3 * 8;
   for (std::size_t at = numbers; at < m_bytes.size(); at += 8)
     for (const double value : {1e300, -1e300, 2.0, infinity, -infinity, std::nan("")}) {
       std::string bytes = m_bytes;
       setNumber(bytes, at, value);
-      const std::string text = refusalOf(bytes);
+      const std::string text = refusalOf(m_file, bytes);
       expectHas(text, at < rotations ? "rest.displacements[" : "rest.rotations[");
       expectHas(text, "allowed");
     }
