@@ -183,6 +183,11 @@ void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposu
   });
 }
 
+double withheldAt(const FaceHit& hit, const ContactLaw<double>& law, const PartingMotion& fragment) {
+  const double parting = hit.normal.dot(fragment.centre + fragment.spin.cross(hit.at));
+  return withheld(law.inelastic, parting, fragment.jolt, fragment.resting);
+}
+
 FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law,
                      const ElementMotion& motion, const PartingMotion& fragment, const Steps& steps) {
   for (const FaceHit& hit : hits) {
@@ -193,8 +198,7 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     const double pushed = stiffness * depth * touchShare(depth, speed, steps.next, onset);
     const Eigen::Vector3d lever = hit.at.cross(hit.normal);
     const double dashpot = hit.weight * law.damping / std::sqrt(1 + lever.squaredNorm() / motion.gyration);
-    const double parting = hit.normal.dot(fragment.centre + fragment.spin.cross(hit.at));
-    const double kept = 1 - withheld(law.inelastic, parting, fragment.jolt, fragment.resting);
+    const double kept = 1 - withheldAt(hit, law, fragment);
     const double whole = std::fmax(0.0, pushed + dashpot * speed), damped = kept * whole - pushed;
     elastic += pushed * hit.normal;
     damping += damped * hit.normal;

@@ -129,6 +129,10 @@ struct PartingMotion {
   double resting;  ///< share of the force, see resting_loads.h
 };
 
+/// What a hit withholds of its force by the speed at which the fragment parts there, see withheld in
+/// fragment_motion.h.
+double withheldAt(const FaceHit& hit, const ContactLaw<double>& law, const PartingMotion& fragment);
+
 /// The normal forces of all hits as one contact; axes of the element at rest, torques about its centre.
 struct FacePress {
   Eigen::Vector3d elastic = Eigen::Vector3d::Zero(), damping = Eigen::Vector3d::Zero();              // [N]

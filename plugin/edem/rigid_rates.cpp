@@ -1,0 +1,116 @@
+#include "edem/rigid_rates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "edem/rigid_touch.h"
+
+namespace rubble::edem {
+namespace {
+
+// A light rigid body at many elements is faster than they are: up to this multiple of their frequency^2 the
+// substep follows it, beyond it its contacts are made softer.
+constexpr double kLightBodyRate = 4;
+
+// Bound from above of the largest eigenvalue of a matrix that has none below 0: the Frobenius norm of its
+// fourth power, which is 6^(1/8) too large at most.
+double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
+  const Eigen::Matrix<double, 6, 6> square = matrix * matrix, fourth = square * square;
+  return std::pow(fourth.squaredNorm(), 0.125);
+}
+
+}  // namespace
+
+template <class Real>
+void weighFaces(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, FaceTouch& faces) {
+  const std::uint32_t i = c.element;
+  const CellFaces& cells = *body.cells;
+  c.exposed = body.exposure.area[i];
+  c.weight = c.mode = c.dampingWeight = 0;
+  const double gyration = body.inertia[i] / body.mass[i];
+  const auto add = [&](double weight, double lever2) {
+    c.weight += weight;
+    c.mode += weight * (1 + lever2 / gyration);
+    c.dampingWeight += weight * std::sqrt(1 + lever2 / gyration);
+  };
+  if (c.core) add(1, 0);
+  c.lone = 1;
+  if (!(c.exposed > 0)) return;
+  add(c.balls, cells.reach[i] * cells.reach[i]);
+  const ElementPose pose = poseOf(body, i, proxy);
+  faces.approach(proxy, pose.at, std::numeric_limits<double>::infinity());
+  // Stiffness of the points against shifts and turns of the element, for a mass and an inertia of 1.
+  Eigen::Matrix<double, 6, 6> stiff = Eigen::Matrix<double, 6, 6>::Zero(), damped = stiff;
+  double pressed = 0;
+  faces.visitFacing(cells, body.exposure, i, pose,
+                    [&](double weight, const Eigen::Vector3d& normal, const Eigen::Vector3d& lever) {
+                      Eigen::Matrix<double, 6, 1> way;
+                      way << normal, lever / std::sqrt(gyration);
+                      stiff += weight * way * way.transpose();
+                      damped += weight / way.norm() * way * way.transpose();
+                      pressed += weight;
+                    });
+  c.weight += pressed;
+  c.mode += largestEigenvalue(stiff);
+  c.dampingWeight += largestEigenvalue(damped);
+  c.lone = std::max({c.lone, c.balls, pressed});
+}
+
+template <class Real>
+ElementRates ratesOf(const RigidContact& c, const Body<Real>& body, const ContactLaw<double>& law,
+                     double& frequency2) {
+  const double moves = 1 / body.mass[c.element], turns = 1 / body.inertia[c.element];
+  if (!body.cells) {
+    frequency2 = law.stiffness * moves;
+    return contactRates(law, moves, turns, double(body.radius));
+  }
+  if (!(c.weight > 0)) return {};
+  frequency2 = c.lone * law.stiffness * moves;
+  const double reach = body.cells->reach[c.element], sliding = moves + reach * reach * turns;
+  return {
+      law.stiffness * c.mode * moves + law.tangential * sliding + law.rolling * turns,
+      law.damping * c.dampingWeight * moves + law.tangentialDamping * sliding + law.rollingDamping * turns};
+}
+
+// An impulse J at a point r from the centre moves that point by at most (1/m + r^2 / I) J.
+template <class Real>
+void addMobility(const RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, RigidState& state) {
+  if (!(c.weight > 0) || !proxy.isDynamic()) return;
+  const Eigen::Vector3d x = body.origin + body.position[c.element];
+  // It touches the body at one of the body's points.
+  const double reach = proxy.reach(), lever2 = std::min((x - proxy.position).squaredNorm(), reach * reach);
+  const double mobility = proxy.inverseMass + lever2 * proxy.inverseInertia.maxCoeff();
+  state.mobility += mobility;
+  state.rate += c.weight * mobility * body.contact.stiffness;
+}
+
+void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2,
+             RigidState& state) {
+  const double allowed = kLightBodyRate * frequency2;
+  const double share = state.rate > allowed ? allowed / state.rate : 1;
+  state.laws.clear();
+  state.rates = {share * state.rate, 0};
+  for (ContactSide side : sides) {
+    const double friction = side.friction < 0 ? side.friction : side.friction * proxy.friction;
+    side.stiffness *= share;
+    ContactSide rigid = side;
+    rigid.mobility = state.mobility;
+    rigid.turning = rigid.radius = 0;
+    rigid.restitution = proxy.restitution;
+    state.laws.push_back(contactLaw(side, rigid));
+    state.laws.back().friction = friction;
+    const ContactLaw<double>& law = state.laws.back();
+    state.rates.damping =
+        std::max(state.rates.damping, state.mobility * std::max(law.damping, law.tangentialDamping));
+  }
+}
+
+template void weighFaces(RigidContact&, const Body<float>&, const RigidProxy&, FaceTouch&);
+template void weighFaces(RigidContact&, const Body<double>&, const RigidProxy&, FaceTouch&);
+template ElementRates ratesOf(const RigidContact&, const Body<float>&, const ContactLaw<double>&, double&);
+template ElementRates ratesOf(const RigidContact&, const Body<double>&, const ContactLaw<double>&, double&);
+template void addMobility(const RigidContact&, const Body<float>&, const RigidProxy&, RigidState&);
+template void addMobility(const RigidContact&, const Body<double>&, const RigidProxy&, RigidState&);
+
+}  // namespace rubble::edem

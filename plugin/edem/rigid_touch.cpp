@@ -1,0 +1,232 @@
+#include "edem/rigid_touch.h"
+
+#include <algorithm>
+
+#include "edem/fragment_motion.h"
+
+namespace rubble::edem {
+namespace {
+
+// How a fragment moves against a rigid body at one of its elements, and what it withholds there.
+struct Parting {
+  Eigen::Vector3d centre, spin;  // of the element's centre [m/s], [rad/s]
+  double jolt;                   // see withheld in fragment_motion.h [m/s]
+  std::size_t resting;           // place among the resting loads
+  double share;                  // of the force that rests
+};
+
+template <class Real>
+Parting partingOf(const Body<Real>& body, std::uint32_t i, const Eigen::Vector3d& x, const RigidSide& side,
+                  const TouchWork& work) {
+  const RigidProxy& proxy = side.proxy;
+  const FragmentMotion& fragment = body.motions[body.motionOf[i]];
+  const std::size_t resting = work.resting.pairOf(
+      {rigidName(side.state.key), proxy.inverseMass, proxy.acceleration},
+      {fragmentName(body.id, body.fragment[i]), fragment.inverseMass, work.resting.gravity()});
+  return {
+      fragment.velocityAt(x) - proxy.velocity - proxy.spin.cross(x - proxy.position),
+      fragment.spin - proxy.spin,
+      // What the contacts of both make of the speed in a substep.
+      work.steps.next * (fragment.pressed * fragment.inverseMass + side.state.pressed * proxy.inverseMass),
+      resting, work.resting.share(resting)};
+}
+
+// The load of a contact on an element at out.at.
+template <class Real>
+void finish(const ContactMotion<double>& motion, const ContactLoad<double>& load, RigidTouch& out) {
+  const Eigen::Vector3d arm = out.at - out.x;
+  // The element gets the load in its own scalar; what is booked and given to the rigid body is exactly that.
+  const auto rounded = [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return v.cast<Real>().template cast<double>();
+  };
+  out.full = load.full * motion.normal;
+  out.force = rounded(load.elastic + load.damping);
+  out.torque = rounded(arm.cross(load.elastic + load.damping) + load.elasticTorque + load.dampingTorque);
+  out.dampingForce = rounded(load.damping);
+  out.dampingTorque = rounded(arm.cross(load.damping) + load.dampingTorque);
+  out.energy = load.energy;
+  out.slipped += load.slipped;
+  out.power = load.elastic.dot(motion.approach) + load.elasticTorque.dot(motion.spin);
+}
+
+template <class Real>
+bool touchSphere(RigidContact& c, const Body<Real>& body, const RigidSide& side, const TouchWork& work,
+                 RigidTouch& out) {
+  const std::uint32_t i = c.element;
+  const RigidProxy& proxy = side.proxy;
+  const Steps& steps = work.steps;
+  out.x = body.origin + body.position[i];
+  const SurfacePoint surface = nearest(proxy, out.x);
+  const double radius = double(body.radius);
+  if (surface.distance >= radius) {
+    c.memory.range = 0;
+    if (!c.touching) return false;
+  }
+  out.at = out.x - 0.5 * (surface.distance + radius) * surface.normal;
+  const Eigen::Vector3d arm = out.at - out.x;
+  const Eigen::Vector3d spin = body.spin[i].template cast<double>();
+  ContactMotion<double> motion;
+  motion.normal = surface.normal;
+  motion.approach = body.velocity[i].template cast<double>() + spin.cross(arm) - proxy.velocity -
+                    proxy.spin.cross(out.at - proxy.position);
+  motion.spin = spin - proxy.spin;
+  // Shifted by a radius, so that distances and ranges stay above 0 down to a radius below the surface;
+  // deeper, a contact is seen anew in every step and gives next to no force.
+  if (surface.distance < radius) {
+    c.memory.range = contactRange(c.memory.range, surface.distance + radius, 2 * radius,
+                                  motion.approach.norm(), steps.moved);
+    motion.overlap = c.memory.range - surface.distance - radius;
+  }
+  const ContactLaw<double>& law = side.state.laws[c.body];
+  if (!(motion.overlap > 0)) {
+    if (c.touching) out.slipped = lostAtParting(law, motion.approach, motion.spin, steps.moved, c.memory);
+    return false;
+  }
+  const Parting parting = partingOf(body, i, out.at, side, work);
+  out.resting = parting.resting;
+  motion.withheld = withheld(law.inelastic, parting.centre.dot(motion.normal), parting.jolt, parting.share);
+  const double speed = -motion.approach.dot(motion.normal);
+  if (steps.moved > 0) c.memory.onset = c.touching ? 1 : onsetShare(motion.overlap, speed, steps.moved);
+  motion.share = touchShare(motion.overlap, speed, steps.next, c.memory.onset);
+  finish<Real>(motion, contactLoad(law, motion, steps.moved, c.memory), out);
+  return true;
+}
+
+// What faces move by in a step, for the depth without force.
+struct FaceStep {
+  const ElementMotion& motion;
+  double moved;  // [s]
+  double way;    // further than any point of the element comes [m]
+
+  double nearer(const FaceHit& hit) const {
+    return -moved * hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
+  }
+};
+
+// The faces' depth without force: that in which they were first seen, or in which they are because they have
+// just been exposed, for what they cannot have come in the last step. It
+// gives way as they leave.
+void sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& step, FaceMemory& memory) {
+  double deepest = 0;
+  for (const FaceHit& hit : hits) deepest = std::max(deepest, hit.depth);
+  const bool fresh = memory.deepest <= 0 || memory.area != exposed;
+  const double free = memory.deepest + step.way;
+  if (fresh && deepest > free) memory.sunk += deepest - free;
+  memory.area = exposed;
+  memory.deepest = deepest;
+  memory.sunk = std::min(memory.sunk, deepest);
+}
+
+// Takes the depth without force off the hits in work.faces and adds those of corners, less theirs.
+template <class Real>
+void sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
+          const RigidSide& side, FaceTouch& faces) {
+  sinkFaces(faces.hits(), body.exposure.area[c.element], step, c.faces);
+  for (const CornerHit& h : corners) faces.add(h.hit);
+  faces.lift([&](const FaceHit& hit) {
+    if (hit.corner == CornerName{}) return c.faces.sunk;
+    const CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
+                                                          std::max(0.0, step.nearer(hit)));
+    return corner.sunk;
+  });
+}
+
+// All hits of an element as one contact.
+ContactLoad<double> faceLoad(const FacePress& press, const ContactLaw<double>& law,
+                             const Eigen::Matrix3d& turn, const ContactMotion<double>& motion, double moved,
+                             ContactMemory<double>& memory) {
+  const double twisting = law.friction < 0 ? -1 : law.friction * press.spread;
+  ContactLoad<double> load = slidingLoad(law, motion, press.total, twisting, moved, memory);
+  const Eigen::Vector3d arm = turn * press.at, pushed = turn * press.elastic, damped = turn * press.damping;
+  load.elastic += pushed;
+  load.damping += damped;
+  load.elasticTorque += turn * press.elasticTorque - arm.cross(pushed);
+  load.dampingTorque += turn * press.dampingTorque - arm.cross(damped);
+  load.energy += press.energy;
+  load.full = press.full;
+  return load;
+}
+
+template <class Real>
+bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
+                std::span<const CornerHit> corners, const TouchWork& work, RigidTouch& out) {
+  const std::uint32_t i = c.element;
+  const RigidProxy& proxy = side.proxy;
+  const CellFaces& cells = *body.cells;
+  const double moved = work.steps.moved;
+  out.x = body.origin + body.position[i];
+  ElementPose pose;
+  pose.at = proxy.orientation.conjugate() * (out.x - proxy.position);
+  const double reach = body.exposure.count[i] > 0 ? cells.reach[i] : 0;
+  const double distance = work.faces.approach(proxy, pose.at, reach);
+  if (distance >= std::max(reach, cells.core[i]) && !c.touching) {
+    c.faces = {};
+    return false;
+  }
+  const Eigen::Matrix3d turn = body.orientation(i).toRotationMatrix();
+  pose.turn = proxy.orientation.conjugate().toRotationMatrix() * turn;
+  work.faces.find(cells, body.exposure, i, pose, c.balls > 0);
+  // Of the element's points relative to the rigid body's: velocity + spin x arm.
+  const Eigen::Vector3d velocity =
+      body.velocity[i].template cast<double>() - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
+  ContactMotion<double> motion;
+  motion.spin = body.spin[i].template cast<double>() - proxy.spin;
+  const ElementMotion own{turn.transpose() * velocity, turn.transpose() * motion.spin,
+                          body.inertia[i] / body.mass[i]};
+  const ContactLaw<double>& law = side.state.laws[c.body];
+  const Parting parting = partingOf(body, i, out.x, side, work);
+  out.resting = parting.resting;
+  const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
+                               parting.jolt, parting.share};
+  const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
+  sink(c, body, corners, {own, moved, 2 * moved * fastest}, side, work.faces);
+  const FacePress press(work.faces.hits(), law, own, fragment, {work.moved, work.steps.next});
+  if (!(press.weight > 0)) {
+    out.slipped = lostAtParting(law, velocity, motion.spin, moved, c.memory);
+    return false;
+  }
+  const Eigen::Vector3d arm = turn * press.at;
+  out.at = out.x + arm;
+  motion.normal = turn * press.normal;
+  motion.approach = velocity + motion.spin.cross(arm);
+  // Faces resist rolling by their shape; what is left is twisting, by their friction.
+  motion.spin = motion.normal * motion.normal.dot(motion.spin);
+  finish<Real>(motion, faceLoad(press, law, turn, motion, moved, c.memory), out);
+  return true;
+}
+
+}  // namespace
+
+template <class Real>
+ElementPose poseOf(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy) {
+  const Eigen::Vector3d x = body.origin + body.position[element];
+  const Eigen::Quaterniond back = proxy.orientation.conjugate();
+  return {back * (x - proxy.position), (back * body.orientation(element)).toRotationMatrix()};
+}
+
+template <class Real>
+void findCorners(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy, FaceTouch& faces) {
+  const ElementPose pose = poseOf(body, element, proxy);
+  const double reach = body.exposure.count[element] > 0 ? body.cells->reach[element] : 0;
+  faces.approach(proxy, pose.at, reach);
+  faces.findCorners(*body.cells, body.exposure, element, pose);
+}
+
+template <class Real>
+bool touchRigid(RigidContact& contact, const Body<Real>& body, const RigidSide& side,
+                std::span<const CornerHit> corners, const TouchWork& work, RigidTouch& out) {
+  if (!body.alive[contact.element]) return false;
+  return body.cells ? touchFaces(contact, body, side, corners, work, out)
+                    : touchSphere(contact, body, side, work, out);
+}
+
+template ElementPose poseOf(const Body<float>&, std::uint32_t, const RigidProxy&);
+template ElementPose poseOf(const Body<double>&, std::uint32_t, const RigidProxy&);
+template void findCorners(const Body<float>&, std::uint32_t, const RigidProxy&, FaceTouch&);
+template void findCorners(const Body<double>&, std::uint32_t, const RigidProxy&, FaceTouch&);
+template bool touchRigid(RigidContact&, const Body<float>&, const RigidSide&, std::span<const CornerHit>,
+                         const TouchWork&, RigidTouch&);
+template bool touchRigid(RigidContact&, const Body<double>&, const RigidSide&, std::span<const CornerHit>,
+                         const TouchWork&, RigidTouch&);
+
+}  // namespace rubble::edem
