@@ -67,6 +67,23 @@ Real contactRange(Real range, Real distance, Real free, Real speed, Real moved) 
   return std::fmin(std::fmax(range, distance), free);
 }
 
+/// A contact whose bodies near each other by `way` in a step, to `overlap`, while it withholds a share of its
+/// force: the spring is pressed by the share that they feel and gives way by the rest. Else it would hold,
+/// and give back once nothing is withheld, what nobody has put into it.
+template <class Real>
+struct ContactYield {
+  Real yielded = 0;  ///< to be taken off the overlap [m]
+  Real lost = 0;     ///< by the spring; the withheld force has it as gained [J]
+
+  ContactYield(Real stiffness, Real overlap, Real way, Real withheld) {
+    if (!(withheld > Real(0)) || !(way > Real(0)) || !(overlap > Real(0))) return;
+    const Real before = std::fmax(Real(0), overlap - way);
+    yielded = withheld * (overlap - before);
+    // What leapfrog's half forces do on the way, less what the spring then holds.
+    lost = Real(0.5) * stiffness * yielded * (overlap - yielded + before);
+  }
+};
+
 /// Lengths of the steps before and after an instant [s].
 struct Steps {
   double moved;  ///< that brought the bodies here

@@ -12,7 +12,7 @@ struct CornerMemory {
   CornerName name;
   std::uint32_t body, element;  ///< id of the body
   double pressed;               ///< depth with force [m]
-  double sunk;                  ///< depth without: it was first seen as deep [m]
+  double sunk;                  ///< depth without: it was first seen as deep, or gave way by it [m]
 };
 
 class CornerMemories {

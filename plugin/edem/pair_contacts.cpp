@@ -25,6 +25,7 @@ struct PairTouch {
   Vec3<Real> armFirst, armSecond;  // centre -> contact point [m]
   Eigen::Vector3d at;              // contact point, world [m]
   Eigen::Vector3d full;            // on the second of that pair, before any is withheld [N]
+  bool turned = false;             // that pair is of the second and the first
   Real power = 0;                  // of the elastic loads [W]
   std::size_t resting = kNoRest;   // place among the resting loads
   Real lost = 0;                   // by a pair that has parted [J]
@@ -34,12 +35,29 @@ struct PairTouch {
 // their distance. Pairs that are free of each other touch at the sum of their radii; those first seen deep in
 // each other where they are.
 template <class Real>
-Real contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance, Real speed,
-                     Real moved, ContactMemory<Real>& memory) {
+Real& contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance, Real speed,
+                      Real moved, ContactMemory<Real>& memory) {
   const Real free = a.radius + b.radius;
-  if (entry.pair == kNoPair) return memory.range = contactRange(memory.range, distance, free, speed, moved);
-  Real& range = a.range[entry.pair];
-  return range = std::fmin(std::fmax(range, distance), free);
+  Real& range = entry.pair == kNoPair ? memory.range : a.range[entry.pair];
+  range = entry.pair == kNoPair ? contactRange(range, distance, free, speed, moved)
+                                : std::fmin(std::fmax(range, distance), free);
+  return range;
+}
+
+// What elements of two fragments withhold of their force where they touch, see withheld.
+template <class Real>
+Real withheldBetween(const ContactLaw<Real>& law, const Body<Real>& a, std::uint32_t i, const Body<Real>& b,
+                     std::uint32_t j, const Vec3<Real>& normal, double step, RestingLoads& resting,
+                     PairTouch<Real>& touch) {
+  const FragmentMotion &first = a.motions[a.motionOf[i]], &second = b.motions[b.motionOf[j]];
+  if (&first == &second) return 0;
+  const double parting =
+      (second.velocityAt(touch.at) - first.velocityAt(touch.at)).dot(normal.template cast<double>());
+  const LoadedThing thingA = thingOf(a, i, resting), thingB = thingOf(b, j, resting);
+  touch.turned = thingB.name < thingA.name;
+  touch.resting = touch.turned ? resting.pairOf(thingB, thingA) : resting.pairOf(thingA, thingB);
+  const double jolt = step * (first.pressed * first.inverseMass + second.pressed * second.inverseMass);
+  return Real(withheld(double(law.inelastic), parting, jolt, resting.share(touch.resting)));
 }
 
 template <class Real>
@@ -67,9 +85,10 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   motion.approach =
       b.velocity[j] + b.spin[j].cross(touch.armSecond) - a.velocity[i] - a.spin[i].cross(touch.armFirst);
   motion.spin = b.spin[j] - a.spin[i];
+  Real* range = nullptr;
   if (distance < free) {
-    const Real speed = motion.approach.norm();
-    motion.overlap = contactDistance(entry, a, b, distance, speed, moved, memory) - distance;
+    range = &contactDistance(entry, a, b, distance, motion.approach.norm(), moved, memory);
+    motion.overlap = *range - distance;
   }
   if (!(motion.overlap > Real(0)) || !(distance > Real(0))) {
     if (entry.touching) touch.lost = lostAtParting(list.law, motion.approach, motion.spin, moved, memory);
@@ -77,25 +96,17 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   }
   touch.touches = true;
   motion.normal = between / distance;
+  touch.at = a.origin + a.position[i] + touch.armFirst.template cast<double>();
+  motion.withheld = withheldBetween(list.law, a, i, b, j, motion.normal, steps.next, resting, touch);
   const Real speed = -motion.approach.dot(motion.normal);
   if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
+  const ContactYield<Real> yield(list.law.stiffness, motion.overlap, moved * speed, motion.withheld);
+  *range -= yield.yielded;
+  motion.overlap -= yield.yielded;
   motion.share = touchShare(motion.overlap, speed, next, memory.onset);
-  touch.at = a.origin + a.position[i] + touch.armFirst.template cast<double>();
-  bool turned = false;
-  const FragmentMotion &fragmentA = a.motions[a.motionOf[i]], &fragmentB = b.motions[b.motionOf[j]];
-  if (&fragmentA != &fragmentB) {
-    const double parting = (fragmentB.velocityAt(touch.at) - fragmentA.velocityAt(touch.at))
-                               .dot(motion.normal.template cast<double>());
-    const LoadedThing thingA = thingOf(a, i, resting), thingB = thingOf(b, j, resting);
-    turned = thingB.name < thingA.name;
-    touch.resting = turned ? resting.pairOf(thingB, thingA) : resting.pairOf(thingA, thingB);
-    motion.withheld = Real(withheld(
-        double(list.law.inelastic), parting,
-        steps.next * (fragmentA.pressed * fragmentA.inverseMass + fragmentB.pressed * fragmentB.inverseMass),
-        resting.share(touch.resting)));
-  }
   touch.load = contactLoad(list.law, motion, moved, memory);
-  touch.full = (turned ? -1 : 1) * double(touch.load.full) * motion.normal.template cast<double>();
+  touch.load.slipped += yield.lost;
+  touch.full = (touch.turned ? -1 : 1) * double(touch.load.full) * motion.normal.template cast<double>();
   touch.power = touch.load.elastic.dot(motion.approach) + touch.load.elasticTorque.dot(motion.spin);
   return touch;
 }

@@ -15,7 +15,7 @@ namespace rubble::edem {
 /// What faces remember of a rigid body beside their contact's memory.
 struct FaceMemory {
   double deepest = 0;  ///< at the last instant, but for its corners; 0: out of it [m]
-  double sunk = 0;     ///< depth without force: they were first seen as deep [m]
+  double sunk = 0;     ///< depth without force: first seen as deep, or given way by [m]
   double area = 0;     ///< exposed at the last instant [m^2]
 };
 

@@ -1,6 +1,7 @@
 #include "edem/rigid_touch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "edem/fragment_motion.h"
 
@@ -87,26 +88,69 @@ bool touchSphere(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   motion.withheld = withheld(law.inelastic, parting.centre.dot(motion.normal), parting.jolt, parting.share);
   const double speed = -motion.approach.dot(motion.normal);
   if (steps.moved > 0) c.memory.onset = c.touching ? 1 : onsetShare(motion.overlap, speed, steps.moved);
+  const ContactYield<double> yield(law.stiffness, motion.overlap, steps.moved * speed, motion.withheld);
+  c.memory.range -= yield.yielded;
+  motion.overlap -= yield.yielded;
   motion.share = touchShare(motion.overlap, speed, steps.next, c.memory.onset);
+  out.slipped = yield.lost;
   finish<Real>(motion, contactLoad(law, motion, steps.moved, c.memory), out);
   return true;
 }
 
 // What faces move by in a step, for the depth without force.
 struct FaceStep {
+  const ContactLaw<double>& law;
   const ElementMotion& motion;
+  const PartingMotion& fragment;
   double moved;  // [s]
   double way;    // further than any point of the element comes [m]
 
   double nearer(const FaceHit& hit) const {
     return -moved * hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
   }
+  /// What its weight has grown by.
+  double heavier(const FaceHit& hit) const {
+    return -moved *
+           (hit.turning.dot(motion.spin) + hit.sliding.dot(motion.centre + motion.spin.cross(hit.at)));
+  }
+  ContactYield<double> yieldOf(const FaceHit& hit, double sunk) const {
+    return {hit.weight * law.stiffness, hit.depth - sunk, nearer(hit), withheldAt(hit, law, fragment)};
+  }
 };
 
+// Faces have one depth without force, so that all give way together, by y: what their springs lose on the
+// way, sum K (x + D - y) y / 2 from the depths x to D, is what the withheld force gains on those that near,
+// sum K way withheld (x + D - y) / 2, and on those that grow heavier. The same as ContactYield for one hit of
+// one weight. Returns it [J].
+double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& memory) {
+  double a = 0, b = 0, c = 0;  // a y^2 - b y + c = 0
+  for (const FaceHit& hit : hits) {
+    const double depth = hit.depth - memory.sunk;
+    if (!(depth > 0)) continue;
+    const double share = withheldAt(hit, step.law, step.fragment);
+    const double way = std::min(step.nearer(hit), depth), nears = std::max(0.0, way);
+    a += hit.weight;
+    b += hit.weight * (2 * depth - way + share * nears);
+    c += share * (hit.weight * nears * (2 * depth - way) + std::max(0.0, step.heavier(hit)) * depth * depth);
+  }
+  if (!(c > 0)) return 0;
+  const double yielded = 2 * c / (b + std::sqrt(std::max(0.0, b * b - 4 * a * c)));
+  double lost = 0;
+  for (const FaceHit& hit : hits) {
+    const double depth = hit.depth - memory.sunk;
+    if (!(depth > 0)) continue;
+    const double way = std::min(step.nearer(hit), depth), left = std::max(0.0, depth - yielded);
+    lost += 0.5 * step.law.stiffness * hit.weight * (depth - way + left) * (depth - left);
+  }
+  memory.sunk += yielded;
+  return lost;
+}
+
 // The faces' depth without force: that in which they were first seen, or in which they are because they have
-// just been exposed, for what they cannot have come in the last step. It
-// gives way as they leave.
-void sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& step, FaceMemory& memory) {
+// just been exposed, for what they cannot have come in the last step; and that by which they gave way. It
+// gives way as they leave. They have one of it, so that all give way together. Returns what the springs lost
+// [J].
+double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& step, FaceMemory& memory) {
   double deepest = 0;
   for (const FaceHit& hit : hits) deepest = std::max(deepest, hit.depth);
   const bool fresh = memory.deepest <= 0 || memory.area != exposed;
@@ -115,20 +159,27 @@ void sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& st
   memory.area = exposed;
   memory.deepest = deepest;
   memory.sunk = std::min(memory.sunk, deepest);
+  return giveWay(hits, step, memory);
 }
 
-// Takes the depth without force off the hits in work.faces and adds those of corners, less theirs.
+// Takes the depth without force off the hits in work.faces and adds those of corners, less theirs. Returns
+// what the springs lost [J].
 template <class Real>
-void sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
-          const RigidSide& side, FaceTouch& faces) {
-  sinkFaces(faces.hits(), body.exposure.area[c.element], step, c.faces);
+double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
+            const RigidSide& side, FaceTouch& faces) {
+  double lost = sinkFaces(faces.hits(), body.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
   faces.lift([&](const FaceHit& hit) {
     if (hit.corner == CornerName{}) return c.faces.sunk;
-    const CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
-                                                          std::max(0.0, step.nearer(hit)));
+    CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
+                                                    std::max(0.0, step.nearer(hit)));
+    const ContactYield<double> yield = step.yieldOf(hit, corner.sunk);
+    corner.sunk += yield.yielded;
+    corner.pressed -= yield.yielded;
+    lost += yield.lost;
     return corner.sunk;
   });
+  return lost;
 }
 
 // All hits of an element as one contact.
@@ -179,10 +230,10 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
                                parting.jolt, parting.share};
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
-  sink(c, body, corners, {own, moved, 2 * moved * fastest}, side, work.faces);
+  out.slipped = sink(c, body, corners, {law, own, fragment, moved, 2 * moved * fastest}, side, work.faces);
   const FacePress press(work.faces.hits(), law, own, fragment, {work.moved, work.steps.next});
   if (!(press.weight > 0)) {
-    out.slipped = lostAtParting(law, velocity, motion.spin, moved, c.memory);
+    out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);
     return false;
   }
   const Eigen::Vector3d arm = turn * press.at;

@@ -62,6 +62,61 @@ TYPED_TEST(Restitution, BlockThatLandsOnItsEdgeHardlyBounces) {
   EXPECT_LT(bounce<TypeParam>(def, 0, 1, 0.4), 0.05);
 }
 
+// Most that a block of springs without dashpots, thrown onto a plane, has of the energy that it was thrown
+// with.
+template <class Real>
+double mostEnergyOfAThrow(double restitution, const Eigen::Vector3d& spin) {
+  edem::BodyDef def = block({3, 3, 3}, false, 0.1);
+  def.material.springDamping = def.material.contactDamping = def.material.friction = 0;
+  def.material.restitution = restitution;
+  def.velocity = Eigen::Vector3d(0, -3, 0);
+  def.spin = spin;
+  def.transform = Eigen::Translation3d(0, 0.4, 0);
+  const auto solver = makeSolver<Real>(false);
+  solver->addBody(def, kNoGravity);
+  std::vector<edem::RigidProxy> proxies = {fixedPlane()};
+  proxies[0].restitution = 1;
+  double most = 0;
+  for (int t = 0; t < 480; ++t) {
+    solver->tick(1.0 / 480, kNoGravity, proxies);
+    const edem::Books& b = solver->books();
+    most = std::max(most, (b.kinetic + b.elastic) / b.initialEnergy);
+  }
+  EXPECT_EQ(solver->books().bullet.work.done(), 0);
+  return most;
+}
+
+TYPED_TEST(Restitution, MakesNoEnergyOfABlocksOwnTrembling) {
+  // The block turns as a whole while its corner still nears the plane, and back while the corner leaves it.
+  for (const double e : {0.0, 0.5})
+    for (const Eigen::Vector3d& spin :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(20, 0, 5), Eigen::Vector3d(-7, 3, 30)})
+      EXPECT_LT(mostEnergyOfAThrow<TypeParam>(e, spin), 1 + 1e-3) << e << ", " << spin.transpose();
+}
+
+TEST(ContactYield, TheSpringHoldsWhatWasPutIntoIt) {
+  // Any shares withheld on any way in: leapfrog's half forces put in what the spring then holds.
+  constexpr double k = 3e6;
+  double overlap = 0, work = 0;
+  for (int step = 1; step <= 200; ++step) {
+    const double way = 1e-5 * (1 + step % 7), withheld = 0.5 + 0.5 * std::sin(0.3 * step), start = overlap;
+    const edem::ContactYield<double> yield(k, overlap + way, way, withheld);
+    overlap += way - yield.yielded;
+    EXPECT_GE(overlap, start);
+    work += 0.5 * way * k * (1 - withheld) * (start + overlap);
+    EXPECT_NEAR(work, 0.5 * k * overlap * overlap, 1e-9 * work);
+    // What elastic forces do, less what is held.
+    EXPECT_NEAR(yield.lost, 0.5 * way * k * (start + overlap) - 0.5 * k * (overlap * overlap - start * start),
+                1e-9 * work);
+  }
+}
+
+TEST(ContactYield, NothingGivesWayWhereNothingIsWithheldOrNears) {
+  EXPECT_EQ(edem::ContactYield<double>(1e6, 1e-3, 1e-5, 0).yielded, 0);
+  EXPECT_EQ(edem::ContactYield<double>(1e6, 1e-3, -1e-5, 1).yielded, 0);
+  EXPECT_NEAR(edem::ContactYield<double>(1e6, 1e-3, 1e-5, 1).yielded, 1e-5, 1e-17) << "all of it";
+}
+
 TEST(Withheld, NothingIsWithheldWhileABlowComes) {
   EXPECT_EQ(edem::withheld(1, -3, 0, 0), 0);
   EXPECT_EQ(edem::withheld(1, 0, 0, 0), 0);

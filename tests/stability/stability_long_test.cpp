@@ -22,12 +22,10 @@ struct Known {
   int number;
   const char* fault;
 };
-constexpr std::array<Known, 5> kKnown = {{
+constexpr std::array<Known, 3> kKnown = {{
     {79,
      "the contacts of a light body grow stiffer while they are pressed (RigidContacts::soften): 27 % made"},
-    {88, "restitution withholds the force on what still nears, and gives it all when it turns: 14 % made"},
     {135, "a box and the whole body that it strikes hold 21 % more after the tick of the thaw"},
-    {145, "restitution, as in 88, under a block's own weight: 9 % made"},
     {321,
      "a plate of Model::paper() at 978 m/s gets 7 % from elements that do not lose it; the alarm says so"},
 }};
