@@ -1,4 +1,4 @@
-// Bodies of elements that have come to rest unbroken, and are Bullet's again.
+// Bodies of elements that have come to rest in one piece, and are Bullet's again.
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <LinearMath/btQuickprof.h>
 

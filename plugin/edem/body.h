@@ -79,8 +79,9 @@ struct Body {
   Model model;
   double massDamping = 0;    ///< of the deformation velocity [1/s]
   double settleDamping = 0;  ///< the same, while the host lets the body come to rest [1/s]
-  /// The same in every substep, until a spring breaks: while the host lets it bend to a load [1/s].
+  /// The same in every substep, until another spring breaks: while the host lets it bend to a load [1/s].
   double easeDamping = 0;
+  std::uint32_t easeBroken = 0;  ///< brokenCount when that began
 
   // Constants of the elements.
   std::vector<double> mass;  ///< density x volume of the cell [kg]

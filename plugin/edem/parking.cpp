@@ -1,5 +1,6 @@
 #include "edem/parking.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "edem/body_books.h"
@@ -50,27 +51,46 @@ Eigen::Isometry3d placeOf(const Body<Real>& body) {
   return place;
 }
 
-// A free body's shape is that of the asset; what an anchor holds has the sag in which it was first parked.
+// Cracked pairs touch in that shape without force: it may not push itself apart later.
+template <class Real>
+void closeCracks(Body<Real>& body) {
+  for (std::size_t s = 0; s < body.anchorBegin; ++s) {
+    if (body.intact[s]) continue;
+    const Spring<Real>& spring = body.springs[s];
+    const double apart = (body.position[spring.second] - body.position[spring.first]).norm();
+    body.range[s] = std::min(body.range[s], Real(apart));
+  }
+}
+
+// A free body's shape is that of the asset. What an anchor holds has the sag in which it was first parked;
+// with cracks, which have moved its balance, the one that it has.
 template <class Real>
 void takeShape(Body<Real>& body) {
   if (body.anchorsIntact > 0 && body.parkedAt.empty()) {
     body.parkedAt = body.displacement;
     body.parkedTurn = body.rotation;
-  } else if (body.anchorsIntact > 0) {
+  } else if (body.anchorsIntact > 0 && body.brokenCount == 0) {
     body.displacement = body.parkedAt;
     body.rotation = body.parkedTurn;
-  } else {
+  } else if (body.anchorsIntact == 0) {
     for (Vec3<Real>& u : body.displacement) u.setZero();
     for (Quat<Real>& q : body.rotation) q.setIdentity();
   }
   beginSubstep(body);
+  closeCracks(body);
 }
 
 }  // namespace
 
 template <class Real>
+bool mayPark(const Body<Real>& body) {
+  const std::size_t anchors = body.springs.size() - body.anchorBegin;
+  return !body.asleep && body.fragmentCount == 1 && body.crushedCount == 0 && body.anchorsIntact == anchors;
+}
+
+template <class Real>
 ParkedMotion park(Body<Real>& body, Books& books) {
-  assert(!body.asleep && body.fragmentCount == 1 && body.brokenCount == 0);
+  assert(!body.asleep && mayPark(body));
   const Motion before = motionOf(body, books.centre);
   const double elastic = elasticOf(body);
   takeShape(body);
@@ -131,6 +151,8 @@ void unpark(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vect
   bookHost({}, motionOf(body, books.centre), books);
 }
 
+template bool mayPark(const Body<float>&);
+template bool mayPark(const Body<double>&);
 template ParkedMotion park(Body<float>&, Books&);
 template ParkedMotion park(Body<double>&, Books&);
 template void placeParked(Body<float>&, const Eigen::Isometry3d&);

@@ -15,9 +15,14 @@ struct ParkedMotion {
   Eigen::Vector3d angularMomentum = Eigen::Vector3d::Zero();
 };
 
-/// Lends an unbroken body of one fragment to the host, with its momenta. Its elements go to their rest shape
-/// about the frame that follows them, what an anchor holds to the shape in which it was first parked; the
-/// energy that only elements have is booked as damped.
+/// One that is awake, has all its elements, in one fragment, and all its anchors; it may have cracks.
+template <class Real>
+bool mayPark(const Body<Real>& body);
+
+/// Lends a body that may be parked to the host, with its momenta. Its elements go to their rest shape
+/// about the frame that follows them, what an anchor holds to the shape in which it was first parked, or
+/// stays in its own once it has cracks; the energy that only elements have is booked as damped. Springs that
+/// are broken stay so, and their pairs touch in that shape without force.
 template <class Real>
 ParkedMotion park(Body<Real>& body, Books& books);
 

@@ -106,7 +106,9 @@ class SolverOf final : public Solver {
 
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
-    m_world.bodies[placeOf(id)]->easeDamping = rate;
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    body.easeDamping = rate;
+    body.easeBroken = body.brokenCount;
   }
 
   void setAsleep(std::uint32_t id, bool asleep) override {
@@ -157,9 +159,6 @@ class SolverOf final : public Solver {
   }
   const Body<Real>& of(std::uint32_t id) const { return *m_world.bodies[placeOf(id)]; }
 
-  static bool mayPark(const Body<Real>& body) {
-    return !body.asleep && body.brokenCount == 0 && body.fragmentCount == 1;
-  }
   double stableStepOf(const Body<Real>& body) const {
     return m_world.def.substepSafety * bodyBound(body).stableStep();
   }

@@ -78,13 +78,14 @@ class Solver {
                     const Eigen::Vector3d& angular) = 0;
   /// Lets a body come to rest: damps its fragments' deformation at least at this rate [1/s]; 0: no more.
   virtual void setSettling(std::uint32_t id, double rate) = 0;
-  /// Lets an unbroken body bend to what rests on it without a swing: damps its deformation at this rate in
-  /// every substep until a spring of it breaks [1/s]; 0: no more.
+  /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
+  /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;
   /// Stops a body where it is (its remaining motion is booked), or lets it move again.
   virtual void setAsleep(std::uint32_t id, bool asleep) = 0;
   /// Lends a whole body to the host, which then moves it as one: its elements rest in its frame and touch
-  /// nothing. Only one that is awake, unbroken and a single fragment; none otherwise.
+  /// nothing. Only one that is awake, has all its elements, in one fragment, and all its anchors; none
+  /// otherwise.
   virtual std::optional<ParkedMotion> park(std::uint32_t id) = 0;
   /// What keeps such a body from being lent without a jump; none for others.
   virtual std::optional<Unrest> unrest(std::uint32_t id) const = 0;

@@ -148,7 +148,8 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
       w.failure = "body " + std::to_string(body.id) +
                   ": the state of its elements is not finite; lower substepSafety, or look for "
                   "units other than metres, seconds, kilograms";
-    if (body.easeDamping > 0 && body.brokenCount == 0) dampDeformation(body, body.easeDamping, kick, w.books);
+    if (body.easeDamping > 0 && body.brokenCount == body.easeBroken)
+      dampDeformation(body, body.easeDamping, kick, w.books);
     moveMotions(body, kick, step, gravity);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }
