@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "demo/bench_paper.h"
+#include "demo/case_report.h"
 #include "demo/cook.h"
 #include "demo/report.h"
 #include "demo/run.h"
@@ -14,13 +15,14 @@
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report, BenchPaper, Cook };
+  enum class Command { Run, View, Info, Report, CaseReport, BenchPaper, Cook };
   Command command = Command::Run;
-  std::string scene;  ///< empty for BenchPaper and Cook
+  std::string scene;  ///< empty for BenchPaper, CaseReport and Cook
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
+  CaseReportOptions caseReport;
   BenchPaperOptions benchPaper;
   CookFileOptions cook;
 };

@@ -23,8 +23,14 @@ std::string hashOf(const std::string& command) {
   std::vector<char*> raw;
   for (std::string& word : words) raw.push_back(word.data());
   const demo::CommandLine line = demo::parseCommandLine(int(raw.size()), raw.data());
-  return line.command == demo::CommandLine::Command::BenchPaper ? demo::benchPaperHash(line.benchPaper)
-                                                                : demo::reportHash(line.report);
+  switch (line.command) {
+    case demo::CommandLine::Command::BenchPaper:
+      return demo::benchPaperHash(line.benchPaper);
+    case demo::CommandLine::Command::CaseReport:
+      return demo::caseReportHash(line.caseReport);
+    default:
+      return demo::reportHash(line.report);
+  }
 }
 
 // Scenes, presets or the solver have changed since: write the table again, and read what it says now.
