@@ -14,7 +14,7 @@ namespace {
 // Lengths in pixels of the SVG.
 constexpr double kLeft = 70, kTop = 64;  // of the plot's corner
 constexpr double kPlotWidth = 480, kPlotHeight = 340;
-constexpr double kLegend = 250;  // right of the plot
+constexpr double kLegend = 310;  // right of the plot
 constexpr double kWidth = kLeft + kPlotWidth + kLegend;
 constexpr double kLine = 16;  // of text
 constexpr double kDot = 3.5, kRing = 7;

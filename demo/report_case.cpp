@@ -7,7 +7,7 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {cantileverCase()};
+  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(), slideCase()};
   return cases;
 }
 

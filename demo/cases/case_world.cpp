@@ -94,17 +94,19 @@ std::string precisionName(Precision precision) {
 }
 
 std::vector<CaseRun> substepRuns(const std::string& quantity,
-                                 const std::function<CaseOutcome(Precision, double)>& run) {
+                                 const std::function<CaseOutcome(Precision, double)>& run,
+                                 std::initializer_list<double> parts) {
   const DestructionDef standard;
   std::vector<CaseRun> runs;
   for (const Precision precision : {Precision::Float, Precision::Double}) {
-    for (const double safety : {standard.substepSafety, 0.45, 0.225}) {
-      const bool isStandard = precision == standard.precision && safety == standard.substepSafety;
-      runs.push_back({(quantity.empty() ? "" : quantity + ", ") + "elements, " + precisionName(precision),
-                      "substep_safety " + rounded(safety), isStandard,
-                      isStandard || safety == standard.substepSafety,
-                      [=] { return run(precision, safety); }});
-    }
+    const std::string method =
+        (quantity.empty() ? "" : quantity + ", ") + "elements, " + precisionName(precision);
+    const auto add = [&](double safety, bool whole) {
+      runs.push_back({method, "substep_safety " + rounded(safety), whole && precision == standard.precision,
+                      whole, [=] { return run(precision, safety); }});
+    };
+    add(standard.substepSafety, true);
+    for (const double part : parts) add(standard.substepSafety * part, false);
   }
   return runs;
 }

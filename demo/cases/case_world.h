@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -64,10 +65,12 @@ inline Eigen::Vector3d fromBullet(const btVector3& v) {
   return {double(v.x()), double(v.y()), double(v.z())};
 }
 
-/// Runs of the elements in both precisions, each over the shares of the stable substep; `run` gets both.
-/// `quantity` goes before the method's name where it is not empty.
+/// Runs of the elements in both precisions, each at the default share of the stable substep and at those
+/// parts of it; `run` gets precision and share. `quantity` goes before the method's name where it is not
+/// empty.
 std::vector<CaseRun> substepRuns(const std::string& quantity,
-                                 const std::function<CaseOutcome(Precision, double)>& run);
+                                 const std::function<CaseOutcome(Precision, double)>& run,
+                                 std::initializer_list<double> parts = {0.5, 0.25});
 
 /// "float" or "double".
 std::string precisionName(Precision precision);

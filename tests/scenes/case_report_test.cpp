@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 
@@ -166,6 +167,54 @@ TEST(CantileverCase, TheSagIsThatOfMohrsIntegral) {
   }
   sag += q * length * length / 2 / (5.0 / 6 * modulus / 2 * height * height);
   EXPECT_NEAR(demo::timoshenkoSag(length, height, length, density, modulus, gravity), sag, 1e-8 * sag);
+}
+
+// The same blow, step by step.
+TEST(BounceCase, TheContactLastsAsLongAsAMassStaysOnASpring) {
+  constexpr double kMass = 3, kStiffness = 700, kStep = 1e-6;
+  double depth = 0, speed = 2, time = 0;
+  do {
+    speed -= kStep * kStiffness / kMass * depth;
+    depth += kStep * speed;
+    time += kStep;
+  } while (depth > 0);
+  EXPECT_NEAR(demo::springContactSeconds(kMass, kStiffness), time, 2 * kStep);
+}
+
+// A symmetric top turns about its momentum at L / I1 while it spins about its own axis at w3 (1 - I3 / I1)
+// (Landau and Lifshitz, Mechanics, section 33).
+TEST(FreeSpinCase, ASymmetricTopPrecessesRegularly) {
+  const Eigen::Vector3d moments(0.4, 0.4, 0.7), spin(3, -2, 5);
+  constexpr double kSeconds = 1.3;
+  const Eigen::Vector3d momentum = moments.cwiseProduct(spin);
+  const auto turned = [](const Eigen::Vector3d& by) {
+    return Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix();
+  };
+  const double own = spin.z() * (1 - moments.z() / moments.x());
+  const Eigen::Matrix3d expected =
+      turned(kSeconds / moments.x() * momentum) *
+      Eigen::AngleAxisd(own * kSeconds, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d found = demo::tumbled(moments.asDiagonal(), spin, kSeconds);
+  EXPECT_LT((found - expected).norm(), 1e-9);
+}
+
+TEST(SlideCase, TheWayIsThatOfASpeedThatFallsEvenly) {
+  constexpr double kFriction = 0.4, kGravity = 9, kStep = 1e-6;
+  double way = 0;
+  for (double speed = 3; speed > 0; speed -= kStep * kFriction * kGravity) way += kStep * speed;
+  EXPECT_NEAR(demo::stopDistance(3, kFriction, kGravity), way, 1e-5);
+}
+
+// Restitution as in tests/physics/restitution_test.cpp, e^2 to 0.01 + 0.02 e^2: at 0.5 to 0.015. Of the
+// contact time one substep may be lost, 0.35 of the pi / omega (plugin/edem/step_length.cpp).
+TEST(BounceCase, TheElementsKeepTheClosedForms) {
+  int tried = 0;
+  for (const demo::CaseRun& run : demo::bounceCase().runs) {
+    if (!run.standard) continue;
+    EXPECT_LT(run.run().error, run.method.starts_with("restitution") ? 0.015 : 0.35 / 3.14159) << run.method;
+    ++tried;
+  }
+  EXPECT_EQ(tried, 2);
 }
 
 }  // namespace
