@@ -152,8 +152,8 @@ void caseReport(const CaseReportOptions& options, std::ostream& out) {
   for (const ReportCase* c : cases) {
     std::vector<CaseRow> rows;
     for (const CaseRun* run : runsOf(*c, options.quick)) {
+      progress.show(double(done++) / double(count), c->name + ", " + run->method);
       rows.push_back({run, run->run()});
-      progress.show(double(++done) / double(count), c->name + ", " + run->method);
     }
     addSummary(table, *c, rows);
     for (const auto& [ending, text] :
@@ -163,6 +163,7 @@ void caseReport(const CaseReportOptions& options, std::ostream& out) {
       files += file.string() + '\n';
     }
   }
+  progress.show(1, "all runs");
   const std::string markdown = markdownTable(table) + notesOf(cases);
   out << markdown << '\n' << files;
   if (!document) return;

@@ -20,7 +20,8 @@ constexpr double kLine = 16;  // of text
 constexpr double kDot = 3.5, kRing = 7;
 constexpr double kMargin = 10;
 
-// Told apart by people who see few colours [OkabeIto08]; methods beyond start again.
+// Told apart by people who see few colours (Okabe and Ito, Color Universal Design, 2008); methods beyond
+// start again.
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 
