@@ -7,7 +7,8 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(), slideCase()};
+  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(),
+                                                slideCase(),      hungCase(),   waveCase()};
   return cases;
 }
 

@@ -11,6 +11,8 @@ ReportCase cantileverCase();
 ReportCase bounceCase();
 ReportCase freeSpinCase();
 ReportCase slideCase();
+ReportCase hungCase();
+ReportCase waveCase();
 
 /// Sag of a cantilever of square section under its own weight at the distance x from its root [m], by
 /// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus
@@ -26,5 +28,12 @@ Eigen::Matrix3d tumbled(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& s
 
 /// Of what slides on level ground under Coulomb's friction [m]. [m/s], dimensionless, [m/s^2].
 double stopDistance(double speed, double friction, double gravity);
+
+/// How far a point of a bar hung by its top sinks under the bar's weight [m], small strains; `depth` is its
+/// distance from the top at rest. Units as of timoshenkoSag.
+double hungSink(double length, double depth, double density, double modulus, double gravity);
+
+/// How long sound takes along a bar of Poisson's ratio 0 [s]. [m], [kg/m^3], [Pa].
+double waveSeconds(double length, double density, double modulus);
 
 }  // namespace rubble::demo

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "demo/cases/cases.h"
@@ -203,6 +204,43 @@ TEST(SlideCase, TheWayIsThatOfASpeedThatFallsEvenly) {
   double way = 0;
   for (double speed = 3; speed > 0; speed -= kStep * kFriction * kGravity) way += kStep * speed;
   EXPECT_NEAR(demo::stopDistance(3, kFriction, kGravity), way, 1e-5);
+}
+
+// Each slice carries what hangs below it: the strains of a million slices, summed.
+TEST(HungCase, TheSinkIsTheSumOfTheStrains) {
+  constexpr double kLength = 1.3, kDepth = 0.7, kDensity = 2000, kModulus = 1e7, kGravity = 9;
+  constexpr int kSlices = 1'000'000;
+  double sink = 0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double at = kDepth * (i + 0.5) / kSlices;
+    sink += kDensity * kGravity * (kLength - at) / kModulus * kDepth / kSlices;
+  }
+  EXPECT_NEAR(demo::hungSink(kLength, kDepth, kDensity, kModulus, kGravity), sink, 1e-9 * sink);
+}
+
+// Of a row of masses m on springs k at distances a, the slowest of a tied and a free end has
+// w = 2 sqrt(k / m) sin(pi / (2 (2 n + 1))), and a period is four ways of the wave.
+TEST(WaveCase, FourWaysAreTheSlowestPeriodOfARowOfMasses) {
+  constexpr double kLength = 1.3, kDensity = 2000, kModulus = 1e7, kArea = 0.01;
+  constexpr int kMasses = 10000;
+  const double a = kLength / kMasses, mass = kDensity * kArea * a, spring = kModulus * kArea / a;
+  const double pi = std::numbers::pi;
+  const double period = 2 * pi / (2 * std::sqrt(spring / mass) * std::sin(pi / (2 * (2 * kMasses + 1))));
+  EXPECT_NEAR(4 * demo::waveSeconds(kLength, kDensity, kModulus), period, 1e-3 * period);
+}
+
+// The coarsest bar, two elements across: 2 % is what is promised of its stiffness, and half of that of the
+// period, which goes by the root.
+TEST(BarCases, TheElementsKeepTheClosedForms) {
+  for (const auto& [c, tolerance] : {std::pair(demo::hungCase(), 0.02), std::pair(demo::waveCase(), 0.01)}) {
+    int tried = 0;
+    for (const demo::CaseRun& run : c.runs) {
+      if (!run.standard) continue;
+      EXPECT_LT(run.run().error, tolerance) << c.name << ", " << run.method;
+      ++tried;
+    }
+    EXPECT_EQ(tried, 1) << c.name;
+  }
 }
 
 // Restitution as in tests/physics/restitution_test.cpp, e^2 to 0.01 + 0.02 e^2: at 0.5 to 0.015. Of the
