@@ -119,8 +119,9 @@ void addBench(CLI::App& app, BenchPaperOptions& options, Raw& raw) {
 void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown, CSV and SVG");
   report->add_option("WHAT", raw.reported,
-                     "cases with a known answer (" + reportCaseNames() + "), or one scene (" + sceneNames() +
-                         ", or path of a JSON file)");
+                     "cases with a known answer (" + reportCaseNames() + "), or " + kMaterialReportName +
+                         " (what each preset reaches of its strength and stiffness), or one scene (" +
+                         sceneNames() + ", or path of a JSON file)");
   report->add_flag("--all", line.caseReport.all, "all cases");
   report->add_flag("--quick", line.caseReport.quick, "of cases: fewer settings");
   addSceneOptions(*report, line, raw, false);
@@ -174,28 +175,39 @@ bool isSceneName(const std::string& word) {
   return (", " + sceneNames() + ",").find(", " + word + ",") != std::string::npos;
 }
 
-// Several words are cases; one may be a scene.
+void refuseSceneOptions(const Raw& raw, const std::string& reported) {
+  if (!raw.sets.empty() || !raw.sweeps.empty() || raw.frames || raw.seed)
+    throw InputError("report", reported, "is no scene that --set, --sweep, --frames or --seed could change");
+}
+
+// Several words are cases; one may be a scene, or the materials.
 void sortReport(CommandLine& line, const Raw& raw) {
   CaseReportOptions& cases = line.caseReport;
   if (raw.reported.empty() && !cases.all)
     throw InputError("report", "",
-                     "has nothing to do, must have --all, a scene, or cases of: " + reportCaseNames());
+                     "has nothing to do, must have --all, a scene, " + std::string(kMaterialReportName) +
+                         ", or cases of: " + reportCaseNames());
   const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
+  if (raw.reported == std::vector<std::string>{kMaterialReportName} && !cases.all) {
+    if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
+    refuseSceneOptions(raw, kMaterialReportName);
+    line.command = CommandLine::Command::MaterialReport;
+    line.materialReport = {line.report.folder, line.report.write};
+    return;
+  }
   const auto stranger = std::ranges::find_if_not(raw.reported, isCase);
   if (raw.reported.size() == 1 && !cases.all && stranger != raw.reported.end()) {
     line.scene = *stranger;
     if (!line.scene.empty() && !isPath(line.scene) && !isSceneName(line.scene))
       throw InputError("report", line.scene,
                        "is no case and no scene, must be one of: " + reportCaseNames() + ", " + sceneNames() +
-                           ", or the path of a JSON file");
+                           ", " + kMaterialReportName + ", or the path of a JSON file");
     if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
     return;
   }
   if (stranger != raw.reported.end())
     throw InputError("report", *stranger, "is no case, must be one of: " + reportCaseNames());
-  if (!raw.sets.empty() || !raw.sweeps.empty() || raw.frames || raw.seed)
-    throw InputError("report", raw.reported.empty() ? "--all" : raw.reported.front(),
-                     "is no scene that --set, --sweep, --frames or --seed could change");
+  refuseSceneOptions(raw, raw.reported.empty() ? "--all" : raw.reported.front());
   line.command = CommandLine::Command::CaseReport;
   cases.cases = raw.reported;
   cases.folder = line.report.folder;
@@ -244,7 +256,9 @@ CommandLine parseCommandLine(int argc, char** argv) {
     return line;
   }
   if (line.command == CommandLine::Command::Report) sortReport(line, raw);
-  if (line.command == CommandLine::Command::CaseReport) return line;
+  if (line.command == CommandLine::Command::CaseReport ||
+      line.command == CommandLine::Command::MaterialReport)
+    return line;
   if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
   for (const std::string& sweep : raw.sweeps) line.report.sweeps.push_back(parseSweep(sweep));

@@ -7,6 +7,7 @@
 #include "demo/bench_paper.h"
 #include "demo/case_report.h"
 #include "demo/cook.h"
+#include "demo/material_report.h"
 #include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
@@ -15,14 +16,15 @@
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report, CaseReport, BenchPaper, Cook };
+  enum class Command { Run, View, Info, Report, CaseReport, MaterialReport, BenchPaper, Cook };
   Command command = Command::Run;
-  std::string scene;  ///< empty for BenchPaper, CaseReport and Cook
+  std::string scene;  ///< empty for BenchPaper, CaseReport, Cook and MaterialReport
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
   CaseReportOptions caseReport;
+  MaterialReportOptions materialReport;
   BenchPaperOptions benchPaper;
   CookFileOptions cook;
 };
