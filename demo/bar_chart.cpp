@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <sstream>
 
 #include "demo/markdown_table.h"
+#include "demo/svg.h"
 
 namespace rubble::demo {
 namespace {
@@ -17,48 +17,10 @@ constexpr double kRight = 60;    // for the number behind the longest bar
 constexpr double kWidth = kLabels + kPlot + kRight;
 constexpr double kTop = 74;  // title, legend and the axis' numbers
 constexpr double kBar = 9, kRow = 2 * kBar + 8;
-constexpr double kLine = 16;           // of the notes
-constexpr std::size_t kLetters = 130;  // of a note's line, about 6 pixels each
+constexpr double kLine = 16;  // of the notes
 
 constexpr const char* kFirstColour = "#8a8a8a";
 constexpr const char* kSecondColour = "#1f6fb4";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-// SVG breaks no lines by itself.
-std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
-  std::vector<std::string> lines;
-  for (const std::string& note : notes) {
-    std::istringstream words(note);
-    lines.emplace_back();
-    for (std::string word; words >> word;) {
-      if (!lines.back().empty() && lines.back().size() + 1 + word.size() > kLetters) lines.emplace_back();
-      lines.back() += (lines.back().empty() ? "" : " ") + word;
-    }
-  }
-  return lines;
-}
 
 // Powers of ten around all numbers, at least one decade.
 struct LogAxis {
@@ -80,32 +42,6 @@ struct LogAxis {
     return kLabels + kPlot * (std::log10(value) - first) / double(last - first);
   }
   int first, last;  // exponents
-};
-
-class Svg {
- public:
-  explicit Svg(double height) {
-    m_out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << kWidth << "\" height=\"" << height
-          << "\" viewBox=\"0 0 " << kWidth << ' ' << height
-          << "\" font-family=\"sans-serif\" font-size=\"11\">\n";
-    rectangle(0, 0, kWidth, height, "#ffffff");
-  }
-  void rectangle(double x, double y, double width, double height, const char* colour) {
-    m_out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << width << "\" height=\"" << height
-          << "\" fill=\"" << colour << "\"/>\n";
-  }
-  // `anchor`: start, middle or end of the text stands at x.
-  void text(double x, double y, const std::string& words, const char* anchor = "start") {
-    m_out << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor << "\">" << escaped(words)
-          << "</text>\n";
-  }
-  std::string finish() {
-    m_out << "</svg>\n";
-    return m_out.str();
-  }
-
- private:
-  std::ostringstream m_out;
 };
 
 void drawHead(Svg& svg, const BarChart& chart) {
@@ -139,8 +75,8 @@ void drawBar(Svg& svg, const LogAxis& axis, double y, const std::optional<double
 std::string svgOf(const BarChart& chart) {
   const LogAxis axis(chart.rows);
   const double bottom = kTop + kRow * double(chart.rows.size());
-  const std::vector<std::string> notes = wrapped(chart.notes);
-  Svg svg(bottom + kLine * double(notes.size() + 1));
+  const std::vector<std::string> notes = wrappedForSvg(chart.notes);
+  Svg svg(kWidth, bottom + kLine * double(notes.size() + 1));
   drawHead(svg, chart);
   drawAxis(svg, axis, bottom);
   double y = kTop;

@@ -25,7 +25,7 @@ constexpr const char* kExitCodes =
 // What CLI11 fills in before it is checked.
 struct Raw {
   std::string size = "1280x720";
-  std::vector<std::string> sets, sweeps;
+  std::vector<std::string> sets, sweeps, reported;
   std::optional<std::string> frames, seed, anchor;
   bool noRender = false;
 };
@@ -72,8 +72,9 @@ Eigen::Vector3d parseDirection(const std::string& option, const std::string& tex
   return direction;
 }
 
-void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw) {
-  app.add_option("SCENE", line.scene, "a name (" + sceneNames() + "), or path of a JSON file")->required();
+void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw, bool withScene = true) {
+  const std::string meaning = "a name (" + sceneNames() + "), or path of a JSON file";
+  if (withScene) app.add_option("SCENE", line.scene, meaning)->required();
   app.add_option("--set", raw.sets, "key.path=value: change the scene; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--frames", raw.frames, "number of frames");
@@ -115,6 +116,25 @@ void addBench(CLI::App& app, BenchPaperOptions& options, Raw& raw) {
           "Markdown file: writes the table between the markers of this very bench");
 }
 
+void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
+  CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown, CSV and SVG");
+  report->add_option("WHAT", raw.reported,
+                     "cases with a known answer (" + reportCaseNames() + "), or " + kMaterialReportName +
+                         " (what each preset reaches of its strength and stiffness), or one scene (" +
+                         sceneNames() + ", or path of a JSON file)");
+  report->add_flag("--all", line.caseReport.all, "all cases");
+  report->add_flag("--quick", line.caseReport.quick, "of cases: fewer settings");
+  addSceneOptions(*report, line, raw, false);
+  addPath(*report, "--out", line.report.folder, "folder of the results, default out/report");
+  report
+      ->add_option("--sweep", raw.sweeps,
+                   "of a scene: key.path=value;value...: runs with each; may be repeated. Default: "
+                   "precision and substep")
+      ->allow_extra_args(false);
+  addPath(*report, "--write", line.report.write,
+          "Markdown file: writes the table between the markers of this very report");
+}
+
 void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
   addCook(app, line.cook, raw);
 
@@ -133,16 +153,7 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* info = app.add_subcommand("info", "what a scene or a .rubble-asset file holds and needs");
   addSceneOptions(*info, line, raw);
 
-  CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown and CSV");
-  addSceneOptions(*report, line, raw);
-  addPath(*report, "--out", line.report.folder, "folder of the CSV, default out/report");
-  report
-      ->add_option("--sweep", raw.sweeps,
-                   "key.path=value;value...: runs with each; may be repeated. Default: precision and substep")
-      ->allow_extra_args(false);
-  addPath(*report, "--write", line.report.write,
-          "Markdown file: writes the table between the markers of this very report");
-
+  addReport(app, line, raw);
   addBench(app, line.benchPaper, raw);
 }
 
@@ -153,6 +164,54 @@ CommandLine::Command command(const CLI::App& app) {
   if (app.got_subcommand("info")) return CommandLine::Command::Info;
   if (app.got_subcommand("report")) return CommandLine::Command::Report;
   return CommandLine::Command::Run;
+}
+
+// Whether `word` can only be meant as the name of a scene or a case.
+bool isPath(const std::string& word) {
+  return word.find('/') != std::string::npos || word.ends_with(".json") || isAssetFile(word);
+}
+
+bool isSceneName(const std::string& word) {
+  return (", " + sceneNames() + ",").find(", " + word + ",") != std::string::npos;
+}
+
+void refuseSceneOptions(const Raw& raw, const std::string& reported) {
+  if (!raw.sets.empty() || !raw.sweeps.empty() || raw.frames || raw.seed)
+    throw InputError("report", reported, "is no scene that --set, --sweep, --frames or --seed could change");
+}
+
+// Several words are cases; one may be a scene, or the materials.
+void sortReport(CommandLine& line, const Raw& raw) {
+  CaseReportOptions& cases = line.caseReport;
+  if (raw.reported.empty() && !cases.all)
+    throw InputError("report", "",
+                     "has nothing to do, must have --all, a scene, " + std::string(kMaterialReportName) +
+                         ", or cases of: " + reportCaseNames());
+  const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
+  if (raw.reported == std::vector<std::string>{kMaterialReportName} && !cases.all) {
+    if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
+    refuseSceneOptions(raw, kMaterialReportName);
+    line.command = CommandLine::Command::MaterialReport;
+    line.materialReport = {line.report.folder, line.report.write};
+    return;
+  }
+  const auto stranger = std::ranges::find_if_not(raw.reported, isCase);
+  if (raw.reported.size() == 1 && !cases.all && stranger != raw.reported.end()) {
+    line.scene = *stranger;
+    if (!line.scene.empty() && !isPath(line.scene) && !isSceneName(line.scene))
+      throw InputError("report", line.scene,
+                       "is no case and no scene, must be one of: " + reportCaseNames() + ", " + sceneNames() +
+                           ", " + kMaterialReportName + ", or the path of a JSON file");
+    if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
+    return;
+  }
+  if (stranger != raw.reported.end())
+    throw InputError("report", *stranger, "is no case, must be one of: " + reportCaseNames());
+  refuseSceneOptions(raw, raw.reported.empty() ? "--all" : raw.reported.front());
+  line.command = CommandLine::Command::CaseReport;
+  cases.cases = raw.reported;
+  cases.folder = line.report.folder;
+  cases.write = line.report.write;
 }
 
 // An asset has nothing to run and no keys to change.
@@ -196,6 +255,10 @@ CommandLine parseCommandLine(int argc, char** argv) {
     parseSize(raw.size, line.benchPaper.width, line.benchPaper.height);
     return line;
   }
+  if (line.command == CommandLine::Command::Report) sortReport(line, raw);
+  if (line.command == CommandLine::Command::CaseReport ||
+      line.command == CommandLine::Command::MaterialReport)
+    return line;
   if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));
   for (const std::string& sweep : raw.sweeps) line.report.sweeps.push_back(parseSweep(sweep));

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "demo/bench_paper.h"
+#include "demo/case_report.h"
 #include "demo/cook.h"
+#include "demo/material_report.h"
 #include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
@@ -14,13 +16,15 @@
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report, BenchPaper, Cook };
+  enum class Command { Run, View, Info, Report, CaseReport, MaterialReport, BenchPaper, Cook };
   Command command = Command::Run;
-  std::string scene;  ///< empty for BenchPaper and Cook
+  std::string scene;  ///< empty for BenchPaper, CaseReport, Cook and MaterialReport
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
+  CaseReportOptions caseReport;
+  MaterialReportOptions materialReport;
   BenchPaperOptions benchPaper;
   CookFileOptions cook;
 };

@@ -21,13 +21,18 @@ enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kStopped = 3 };
 
 void execute(const CommandLine& line) {
   if (line.command == CommandLine::Command::Cook) return cookFile(line.cook, std::cout);
+  if (line.command == CommandLine::Command::CaseReport) return caseReport(line.caseReport, std::cout);
+  if (line.command == CommandLine::Command::MaterialReport)
+    return materialReport(line.materialReport, std::cout);
   if (line.command == CommandLine::Command::BenchPaper) return benchPaper(line.benchPaper, std::cout);
   if (line.command == CommandLine::Command::Info && isAssetFile(line.scene))
     return describeAsset(line.scene, std::cout);
   const Scene scene = loadScene(line.scene, line.overrides);
   switch (line.command) {
     case CommandLine::Command::BenchPaper:  // these have no scene
+    case CommandLine::Command::CaseReport:
     case CommandLine::Command::Cook:
+    case CommandLine::Command::MaterialReport:
       break;
     case CommandLine::Command::Run:
       runScene(scene, line.run, std::cout);

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "edem/fragment_motion.h"
+#include "edem/one_body.h"
 #include "edem/solver.h"
 #include "support/grid_asset.h"
 
@@ -86,44 +86,7 @@ inline edem::RigidProxy fixedBox(const Eigen::Vector3d& half, const Eigen::Vecto
   return fixed(part, at);
 }
 
-/// One body driven stage by stage, for tests that need its state in their own hands. The order is that of
-/// Solver::tick.
-template <class Real>
-class OneBody {
- public:
-  explicit OneBody(const edem::BodyDef& def) {
-    m_bodies.push_back(std::make_unique<edem::Body<Real>>(edem::makeBody<Real>(def, 0)));
-  }
-  edem::Body<Real>& body() { return *m_bodies[0]; }
-  const edem::Books& books() const { return m_books; }
-  const edem::TickReport& report() const { return m_report; }
-
-  void substep(double step, bool breaking) {
-    edem::Body<Real>& b = body();
-    m_books.closeStep();
-    edem::beginSubstep(b);
-    edem::beginMotions(b);
-    m_lists.build(m_bodies, 0.5 * double(b.radius));
-    m_books.elastic = edem::accumulateSprings(b, step, breaking, m_books);
-    for (edem::PairList<Real>& l : m_lists.lists()) {
-      edem::accumulateContacts(l, b, b, {step, step}, m_resting, m_books);
-      m_books.elastic += l.elastic;
-    }
-    edem::applyBreaks(b, 0, step, m_lists, m_books, m_report);
-    m_books.mass = m_books.kinetic = 0;
-    m_books.linear.setZero();
-    m_books.angular.setZero();
-    using Points = std::span<const edem::Vec3<double>>;
-    edem::integrate(b, step, step, kNoGravity, Points(m_lists.grid(0).listed), kNoGravity, m_books);
-  }
-
- private:
-  std::vector<std::unique_ptr<edem::Body<Real>>> m_bodies;
-  edem::PairLists<Real> m_lists;
-  edem::RestingLoads m_resting;
-  edem::Books m_books;
-  edem::TickReport m_report;
-};
+using edem::OneBody;
 
 /// Numbers in [-1, 1], the same on every machine.
 class Numbers {

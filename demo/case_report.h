@@ -1,0 +1,49 @@
+// `rubble report CASE...`: error against run time of setups with a known answer, as CSV, SVG and Markdown.
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "demo/markdown_table.h"
+#include "demo/report_case.h"
+#include "rubble/version.h"
+
+namespace rubble::demo {
+
+struct CaseReportOptions {
+  std::vector<std::string> cases;  ///< names of reportCases()
+  bool all = false;                ///< every case, whatever `cases` holds
+  bool quick = false;              ///< the quick runs only
+  std::filesystem::path folder;    ///< of CSV and SVG; empty: out/report
+  std::filesystem::path write;     ///< a Markdown file that holds this report's markers; empty: none
+};
+
+/// A run and what it gave.
+struct CaseRow {
+  const CaseRun* run;
+  CaseOutcome outcome;
+
+  /// Of one core [ms per simulated second].
+  double milliseconds() const { return 1e3 * outcome.processorSeconds / outcome.simulatedSeconds; }
+};
+
+/// All rows with a heading; where they were made in the last columns.
+TextRows caseCsv(const ReportCase& reportCase, std::span<const CaseRow> rows);
+
+/// Error over milliseconds of one core per simulated second.
+std::string caseSvg(const ReportCase& reportCase, std::span<const CaseRow> rows);
+
+/// What the numbers depend on: the cases, their settings and the version of the solver; as 16 hexadecimal
+/// digits.
+std::string caseReportHash(const CaseReportOptions& options,
+                           std::span<const SolverVersion> versions = kSolverVersions);
+
+/// Runs the cases and writes CASE.csv and CASE.svg of each; prints a Markdown table of all and writes it, if
+/// asked, between the markers of a Markdown file. Throws InputError before the first run when a name or a
+/// file is wrong, MachineError.
+void caseReport(const CaseReportOptions& options, std::ostream& out);
+
+}  // namespace rubble::demo

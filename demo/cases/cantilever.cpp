@@ -1,0 +1,127 @@
+// A beam tied to the world at one end. The elements are pre-stressed when the beam is added, so what is left
+// is the error of their mesh and what the substeps drift by; Bullet's chain settles from straight.
+#include <cmath>
+
+#include "demo/cases/case_world.h"
+#include "demo/cases/cases.h"
+#include "demo/markdown_table.h"
+
+namespace rubble::demo {
+namespace {
+
+constexpr double kLength = 1, kHeight = 0.1;                     // [m]
+constexpr double kDensity = 2400;                                // [kg/m^3]
+constexpr double kModulus = 300e6;                               // [Pa]; the tip sags by 1.2 % of the length
+constexpr double kGravity = 9.81;                                // [m/s^2]
+constexpr std::size_t kCoarse = 80, kMiddle = 270, kFine = 640;  // elements: 2, 3 and 4 through the height
+constexpr double kOuter = 0.9 * kLength;  // the sag is compared from here to the tip [m]
+
+// Mean of what places sag less or more than the beam, over the length. `x` from the root.
+class SagError {
+ public:
+  void add(double x, double sag) {
+    if (x < kOuter) return;
+    m_sum += sag - timoshenkoSag(kLength, kHeight, x, kDensity, kModulus, kGravity);
+    ++m_count;
+  }
+  double value() const { return std::abs(m_sum) / m_count / kLength; }
+
+ private:
+  double m_sum = 0;
+  int m_count = 0;
+};
+
+// `maySleep`: as every body that sets nothing it sleeps when it is at rest, which takes Bullet two seconds.
+CaseOutcome runElements(Precision precision, double substepSafety, std::size_t elements, bool maySleep) {
+  constexpr double kTick = 1.0 / 240;              // [s]
+  const double simulated = maySleep ? 4.0 : 0.25;  // [s]
+  CaseWorld world(kGravity);
+  DestructibleBodyDef def;
+  def.asset = cookedBox({kLength, kHeight, kHeight}, elements, -Eigen::Vector3d::UnitX());
+  def.material.density = kDensity;
+  def.material.youngsModulus = kModulus;
+  const DestructibleBody* beam = world.destruct(precision, substepSafety, maySleep).addBody(def);
+  SagError error;
+  for (int tick = 0; tick < int(std::lround(simulated / kTick)); ++tick) {
+    world.step(kTick);
+    const std::vector<Eigen::Vector3d> places = placesOf(*beam);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector3d& rest = def.asset->positions[i];
+      error.add(rest.x() + kLength / 2, rest.y() - places[i].y());
+    }
+  }
+  return world.outcome(error.value());
+}
+
+// Twenty boxes, each fixed to the one before; Bullet's constraint knows no modulus and would be rigid.
+CaseOutcome runChain(double rate, int iterations) {
+  constexpr int kBoxes = 20;
+  constexpr double kSettling = 3, kSimulated = 4;  // [s]
+  constexpr double kBox = kLength / kBoxes;
+  CaseWorld world(kGravity);
+  world.world().getSolverInfo().m_numIterations = iterations;
+  const auto shape = [] {
+    return std::make_unique<btBoxShape>(toBullet({kBox / 2, kHeight / 2, kHeight / 2}));
+  };
+  std::vector<btRigidBody*> boxes = {&world.add(0, shape(), {-kBox / 2, 0, 0}, false)};
+  btTransform front = btTransform::getIdentity(), back = btTransform::getIdentity();
+  front.setOrigin(toBullet({kBox / 2, 0, 0}));
+  back.setOrigin(toBullet({-kBox / 2, 0, 0}));
+  for (int i = 0; i < kBoxes; ++i) {
+    boxes.push_back(
+        &world.add(kDensity * kBox * kHeight * kHeight, shape(), {kBox * (i + 0.5), 0, 0}, false));
+    world.join(std::make_unique<btFixedConstraint>(*boxes[std::size_t(i)], *boxes.back(), front, back));
+  }
+  SagError error;
+  for (int tick = 0; tick < int(std::lround(kSimulated * rate)); ++tick) {
+    world.step(1 / rate);
+    if (tick < int(std::lround(kSettling * rate))) continue;
+    for (std::size_t i = 1; i < boxes.size(); ++i)
+      error.add(kBox * (double(i) - 0.5), -double(boxes[i]->getWorldTransform().getOrigin().y()));
+  }
+  return world.outcome(error.value());
+}
+
+}  // namespace
+
+double timoshenkoSag(double length, double height, double x, double density, double modulus, double gravity) {
+  const double load = density * gravity * height * height;  // [N/m]
+  const double bending = modulus * std::pow(height, 4) / 12;
+  const double shear = 5.0 / 6 * 0.5 * modulus * height * height;
+  return load * x * x * (6 * length * length - 4 * length * x + x * x) / (24 * bending) +
+         load * (length * x - x * x / 2) / shear;
+}
+
+ReportCase cantileverCase() {
+  ReportCase c{.name = "cantilever",
+               .what = "A beam of 1 x 0.1 x 0.1 m, 2400 kg/m3, E 300 MPa, tied at one end, under gravity",
+               .closedForm = "Timoshenko's sag of the outer tenth, 1.2 % of the length at the tip",
+               .error = "error of the mean sag / length",
+               .runs = {}};
+  const double standard = DestructionDef{}.substepSafety;
+  const auto add = [&](const std::string& method, Precision precision, double safety, std::size_t elements,
+                       bool sleep) {
+    c.runs.push_back({"elements, " + precisionName(precision) + ", " + method,
+                      std::to_string(elements) + " elements, substep_safety " + rounded(safety), sleep,
+                      elements == kCoarse && safety == standard,
+                      [=] { return runElements(precision, safety, elements, sleep); }});
+  };
+  for (const std::size_t elements : {kCoarse, kMiddle})
+    add("asleep at rest", Precision::Float, standard, elements, true);
+  for (const Precision precision : {Precision::Float, Precision::Double}) {
+    for (const std::size_t elements : {kCoarse, kMiddle, kFine})
+      add("awake", precision, standard, elements, false);
+    for (const double safety : {standard, standard / 2, standard / 4})
+      add("shorter substeps", precision, safety, kCoarse, false);
+  }
+  for (const int iterations : {10, 30, 100}) {
+    for (const double rate : {60.0, 240.0, 1000.0}) {
+      c.runs.push_back({"Bullet's btFixedConstraint, " + std::to_string(iterations) + " iterations",
+                        rounded(rate) + " Hz", false, iterations == 10,
+                        [=] { return runChain(rate, iterations); }});
+    }
+  }
+  return c;
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,39 @@
+// The cases of `rubble report`, one file each.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "demo/report_case.h"
+
+namespace rubble::demo {
+
+ReportCase cantileverCase();
+ReportCase bounceCase();
+ReportCase freeSpinCase();
+ReportCase slideCase();
+ReportCase hungCase();
+ReportCase waveCase();
+
+/// Sag of a cantilever of square section under its own weight at the distance x from its root [m], by
+/// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus
+/// E / 2, shear coefficient 5 / 6. Lengths in metres, density in kg/m^3, modulus in Pa, gravity in m/s^2.
+double timoshenkoSag(double length, double height, double x, double density, double modulus, double gravity);
+
+/// How long a mass on a spring that only pushes touches it [s]: half a period. [kg], [N/m].
+double springContactSeconds(double mass, double stiffness);
+
+/// Attitude of a free rigid body after that time [s], the identity at first, by Euler's equations: inertia
+/// about the centre of mass [kg m^2] and spin [rad/s] at the start.
+Eigen::Matrix3d tumbled(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& spin, double seconds);
+
+/// Of what slides on level ground under Coulomb's friction [m]. [m/s], dimensionless, [m/s^2].
+double stopDistance(double speed, double friction, double gravity);
+
+/// How far a point of a bar hung by its top sinks under the bar's weight [m], small strains; `depth` is its
+/// distance from the top at rest. Units as of timoshenkoSag.
+double hungSink(double length, double depth, double density, double modulus, double gravity);
+
+/// How long sound takes along a bar of Poisson's ratio 0 [s]. [m], [kg/m^3], [Pa].
+double waveSeconds(double length, double density, double modulus);
+
+}  // namespace rubble::demo

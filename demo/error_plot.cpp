@@ -1,0 +1,114 @@
+#include "demo/error_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "demo/markdown_table.h"
+#include "demo/svg.h"
+
+namespace rubble::demo {
+namespace {
+
+// Lengths in pixels of the SVG.
+constexpr double kLeft = 70, kTop = 64;  // of the plot's corner
+constexpr double kPlotWidth = 480, kPlotHeight = 340;
+constexpr double kLegend = 310;  // right of the plot
+constexpr double kWidth = kLeft + kPlotWidth + kLegend;
+constexpr double kLine = 16;  // of text
+constexpr double kDot = 3.5, kRing = 7;
+constexpr double kMargin = 10;
+
+// Told apart by people who see few colours (Okabe and Ito, Color Universal Design, 2008); methods beyond
+// start again.
+constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                 "#e69f00", "#56b4e9", "#000000"};
+
+// Powers of ten around all values of one kind, at least one decade.
+struct Decades {
+  Decades(const ErrorPlot& plot, double ErrorPlot::Point::*value) {
+    double low = HUGE_VAL, high = 0;
+    for (const ErrorPlot::Line& line : plot.lines) {
+      for (const ErrorPlot::Point& point : line.points) {
+        assert(point.*value > 0 && std::isfinite(point.*value));
+        low = std::min(low, point.*value);
+        high = std::max(high, point.*value);
+      }
+    }
+    assert(high > 0);
+    first = int(std::floor(std::log10(low)));
+    last = std::max(int(std::ceil(std::log10(high))), first + 1);
+  }
+  // 0 at the first power, 1 at the last.
+  double share(double value) const { return (std::log10(value) - first) / double(last - first); }
+  int first, last;  // exponents
+};
+
+struct Frame {
+  explicit Frame(const ErrorPlot& plot)
+      : times(plot, &ErrorPlot::Point::time), errors(plot, &ErrorPlot::Point::error) {}
+  double x(double time) const { return kLeft + kPlotWidth * times.share(time); }
+  double y(double error) const { return kTop + kPlotHeight * (1 - errors.share(error)); }
+  Decades times, errors;
+};
+
+void drawAxes(Svg& svg, const Frame& frame, const ErrorPlot& plot) {
+  constexpr const char* kGrid = "#d8d8d8";
+  constexpr double kBase = 4;  // of a number, below the middle of its line
+  for (int e = frame.times.first; e <= frame.times.last; ++e) {
+    const double value = std::pow(10.0, e), x = frame.x(value);
+    svg.line(x, kTop, x, kTop + kPlotHeight, kGrid);
+    svg.text(x, kTop + kPlotHeight + kLine, rounded(value), "middle");
+  }
+  for (int e = frame.errors.first; e <= frame.errors.last; ++e) {
+    const double value = std::pow(10.0, e), y = frame.y(value);
+    svg.line(kLeft, y, kLeft + kPlotWidth, y, kGrid);
+    svg.text(kLeft - kMargin, y + kBase, rounded(value), "end");
+  }
+  svg.text(kMargin, kTop - kMargin, plot.errorAxis);
+  svg.text(kLeft + kPlotWidth / 2, kTop + kPlotHeight + 2 * kLine, plot.timeAxis, "middle");
+}
+
+void drawLine(Svg& svg, const Frame& frame, const ErrorPlot::Line& line, const std::string& colour) {
+  constexpr double kThickness = 1.5;
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    const ErrorPlot::Point &a = line.points[i - 1], &b = line.points[i];
+    svg.line(frame.x(a.time), frame.y(a.error), frame.x(b.time), frame.y(b.error), colour, kThickness);
+  }
+  for (const ErrorPlot::Point& point : line.points) {
+    svg.circle(frame.x(point.time), frame.y(point.error), kDot, colour);
+    if (point.standard) svg.circle(frame.x(point.time), frame.y(point.error), kRing, colour, false);
+  }
+}
+
+void drawLegendEntry(Svg& svg, double y, const std::string& words, const std::string& colour, bool ring) {
+  constexpr double kBase = 4;
+  const double x = kLeft + kPlotWidth + 2 * kMargin;
+  svg.circle(x, y, ring ? kRing : kDot, colour, !ring);
+  svg.text(x + 2 * kMargin, y + kBase, words);
+}
+
+}  // namespace
+
+std::string svgOf(const ErrorPlot& plot) {
+  const Frame frame(plot);
+  const std::vector<std::string> notes = wrappedForSvg(plot.notes);
+  const double bottom = kTop + std::max(kPlotHeight + 3 * kLine, kLine * double(plot.lines.size() + 2));
+  Svg svg(kWidth, bottom + kLine * double(notes.size() + 1));
+  svg.text(kMargin, 2 * kMargin, plot.title);
+  drawAxes(svg, frame, plot);
+  double y = kTop;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    const char* colour = kColours[i % kColours.size()];
+    drawLine(svg, frame, plot.lines[i], colour);
+    drawLegendEntry(svg, y, plot.lines[i].method, colour, false);
+    y += kLine;
+  }
+  drawLegendEntry(svg, y, "the default setting", "#000000", true);
+  y = bottom;
+  for (const std::string& note : notes) svg.text(kMargin, y += kLine, note);
+  return svg.finish();
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,26 @@
+#include "demo/report_case.h"
+
+#include <algorithm>
+
+#include "demo/cases/cases.h"
+
+namespace rubble::demo {
+
+const std::vector<ReportCase>& reportCases() {
+  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(),
+                                                slideCase(),      hungCase(),   waveCase()};
+  return cases;
+}
+
+std::string reportCaseNames() {
+  std::string names;
+  for (const ReportCase& c : reportCases()) names += (names.empty() ? "" : ", ") + c.name;
+  return names;
+}
+
+const ReportCase* findReportCase(const std::string& name) {
+  const auto found = std::ranges::find(reportCases(), name, &ReportCase::name);
+  return found == reportCases().end() ? nullptr : &*found;
+}
+
+}  // namespace rubble::demo

@@ -1,0 +1,47 @@
+// Small physical setups with a known answer, which `rubble report CASE` runs at several settings.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rubble::demo {
+
+/// What one run gave.
+struct CaseOutcome {
+  double error = 0;             ///< as ReportCase::error says; not finite: the method failed
+  double processorSeconds = 0;  ///< of the steps alone, not of what was made before them
+  double simulatedSeconds = 0;  ///< > 0
+};
+
+/// A method at one setting.
+struct CaseRun {
+  std::string method;     ///< a line of the plot; runs of a method stand together
+  std::string setting;    ///< what is swept, with its values
+  bool standard = false;  ///< what a body gets that sets nothing
+  bool quick = false;     ///< in `--quick` too
+  std::function<CaseOutcome()> run;
+};
+
+struct ReportCase {
+  std::string name;        ///< as on the command line
+  std::string what;        ///< the setup in one sentence
+  std::string closedForm;  ///< what it is compared with
+  std::string error;       ///< what the error is, and its unit
+  std::vector<CaseRun> runs;
+};
+
+/// Seed of every packing in them.
+inline constexpr std::uint64_t kCaseSeed = 1;
+
+/// All cases, in the order in which they are run.
+const std::vector<ReportCase>& reportCases();
+
+/// Their names, "cantilever, bounce".
+std::string reportCaseNames();
+
+/// The case of that name; null: there is none.
+const ReportCase* findReportCase(const std::string& name);
+
+}  // namespace rubble::demo
