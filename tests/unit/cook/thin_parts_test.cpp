@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/strict_cook.h"
+#include "unit/cook/packed.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -55,7 +56,7 @@ TEST(ThinParts, LegsOfATableHaveElementsThatFitInside) {
   const double leg = 0.06;
   const Asset asset = cookStrictly(table(0.1, leg), optionsFor(400));
   std::array<int, 4> inLegs{};
-  for (const Eigen::Vector3d& p : asset.positions) {
+  for (const Eigen::Vector3d& p : packEvenly(table(0.1, leg), optionsFor(400)).centres) {
     if (p.y() > 0.7) continue;
     const bool isRight = p.x() > 0.6;
     const bool isBack = p.z() > 0.4;
