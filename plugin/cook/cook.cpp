@@ -66,7 +66,7 @@ struct CutElements {
   RestrictedVoronoi diagram;
 };
 
-// Elements packed as densely as can be, unless that leaves thin parts of the solid without.
+// Elements packed as densely as can be, or evenly where that leaves thin parts of the solid without.
 CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, const ProgressFunction& report,
                        const LogFunction& log) {
   report(kProgressMeasuring, "measuring the walls");
@@ -80,8 +80,9 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
     done = std::max(done, least + share * (kProgressMeshes - least) / 2);
     report(done, "packing");
   });
+  const auto foretold = packer.foretell();
   if (log)
-    for (const auto& [level, text] : packer.foretell()) log(level, text);
+    for (const auto& [level, text] : foretold) log(level, text);
   const auto cut = [&](Elements elements) {
     done += kCuttingShare * (kProgressMeshes - done);
     least = done;
@@ -96,18 +97,21 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
         !cells.diagram.emptyParts.empty() && packer.fillEmptyParts(cells.diagram, cells.elements);
     return isChanged ? cut(std::move(cells.elements)) : std::move(cells);
   };
-  CutElements cells = cut(packer.fill());
+  // First what is likelier to do: in thin walls as dense as can be is long to find, and then leaves gaps.
+  const bool isEvenFirst = !foretold.empty() && options.radius == 0;
+  const auto fill = [&](bool isEven) { return cut(isEven ? packer.fillEvenly() : packer.fill()); };
+  CutElements cells = fill(isEvenFirst);
   const double allowed = kReach * std::cbrt(solid.volume / double(cells.elements.centres.size()));
   const double reach = farthestCorner(cells.diagram);
   if (reach <= allowed) return fillEmptyParts(std::move(cells));
 
-  CutElements even = cut(packer.fillEvenly());
-  const double evenReach = farthestCorner(even.diagram);
-  if (evenReach < reach) cells = std::move(even);
-  if (std::min(reach, evenReach) > allowed)
+  CutElements others = fill(!isEvenFirst);
+  const double otherReach = farthestCorner(others.diagram);
+  if (otherReach < reach) cells = std::move(others);
+  if (std::min(reach, otherReach) > allowed)
     cells.elements.notes.emplace_back(
         LogLevel::Warning,
-        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, evenReach),
+        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, otherReach),
              " m from its element, more than ", allowed, " m"));
   return fillEmptyParts(std::move(cells));
 }
