@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cook/balance.h"
 #include "cook/cell_meshes.h"
 #include "cook/cell_reach.h"
 #include "cook/checked_mesh.h"
@@ -26,6 +27,8 @@ using namespace cooking;
 // has too few elements. Packings of solids of one thickness reach 1.5 to 2.7; at the default fill h is 2.06
 // radii.
 constexpr double kReach = 3;
+// Of centre [diagonal] and inertia [its norm]: the rest is rounding.
+constexpr double kExactMoments = 1e-9;
 constexpr double kJitter = 1e-6;  // of the Voronoi sites [r]; anything from 1e-9 to 1e-3 was measured to do
 
 // Shares of a cook's time, for the progress bar.
@@ -63,7 +66,7 @@ struct CutElements {
   RestrictedVoronoi diagram;
 };
 
-// Elements packed as densely as can be, unless that leaves thin parts of the solid without.
+// Elements packed as densely as can be, or evenly where that leaves thin parts of the solid without.
 CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, const ProgressFunction& report,
                        const LogFunction& log) {
   report(kProgressMeasuring, "measuring the walls");
@@ -77,8 +80,9 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
     done = std::max(done, least + share * (kProgressMeshes - least) / 2);
     report(done, "packing");
   });
+  const auto foretold = packer.foretell();
   if (log)
-    for (const auto& [level, text] : packer.foretell()) log(level, text);
+    for (const auto& [level, text] : foretold) log(level, text);
   const auto cut = [&](Elements elements) {
     done += kCuttingShare * (kProgressMeshes - done);
     least = done;
@@ -93,18 +97,21 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
         !cells.diagram.emptyParts.empty() && packer.fillEmptyParts(cells.diagram, cells.elements);
     return isChanged ? cut(std::move(cells.elements)) : std::move(cells);
   };
-  CutElements cells = cut(packer.fill());
+  // First what is likelier to do: in thin walls as dense as can be is long to find, and then leaves gaps.
+  const bool isEvenFirst = !foretold.empty() && options.radius == 0;
+  const auto fill = [&](bool isEven) { return cut(isEven ? packer.fillEvenly() : packer.fill()); };
+  CutElements cells = fill(isEvenFirst);
   const double allowed = kReach * std::cbrt(solid.volume / double(cells.elements.centres.size()));
   const double reach = farthestCorner(cells.diagram);
   if (reach <= allowed) return fillEmptyParts(std::move(cells));
 
-  CutElements even = cut(packer.fillEvenly());
-  const double evenReach = farthestCorner(even.diagram);
-  if (evenReach < reach) cells = std::move(even);
-  if (std::min(reach, evenReach) > allowed)
+  CutElements others = fill(!isEvenFirst);
+  const double otherReach = farthestCorner(others.diagram);
+  if (otherReach < reach) cells = std::move(others);
+  if (std::min(reach, otherReach) > allowed)
     cells.elements.notes.emplace_back(
         LogLevel::Warning,
-        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, evenReach),
+        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, otherReach),
              " m from its element, more than ", allowed, " m"));
   return fillEmptyParts(std::move(cells));
 }
@@ -124,15 +131,35 @@ void checkTies(const CheckedMesh& solid, const Asset& asset, const LogFunction& 
   }
 }
 
-void measureCells(const RestrictedVoronoi& diagram, Asset& asset) {
+std::vector<CellMoments> measureCells(const RestrictedVoronoi& diagram) {
+  std::vector<CellMoments> cells;
+  cells.reserve(diagram.cellCount());
   for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
     PolyhedronIntegrals integrals(diagram.sites[cell]);
     diagram.visitCell(cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       integrals.add(diagram.vertices[a], diagram.vertices[b], diagram.vertices[c]);
     });
-    asset.volumes.push_back(integrals.volume());
-    asset.gyrations.push_back(integrals.gyration());
+    cells.push_back({integrals.volume(), integrals.centroid(), integrals.gyration(), integrals.thickness()});
   }
+  return cells;
+}
+
+// Mass, centre and inertia of all elements are the solid's, or the log says by how much they are not.
+void placeElements(const CheckedMesh& solid, const RestrictedVoronoi& diagram,
+                   std::vector<Eigen::Vector3d> places, const LogFunction& log, Asset& asset) {
+  const std::vector<CellMoments> cells = measureCells(diagram);
+  for (const CellMoments& cell : cells) {
+    asset.volumes.push_back(cell.volume);
+    asset.gyrations.push_back(cell.gyration);
+  }
+  Balanced balanced = balance(solid, cells, std::move(places), asset.radius);
+  asset.positions = std::move(balanced.places);
+  if (log && std::max(balanced.centreError, balanced.inertiaError) > kExactMoments)
+    log(LogLevel::Info,
+        line("the solid is too thin for elements of this size to turn as it does: their moments of inertia "
+             "together are off by ",
+             100 * balanced.inertiaError, " %, their centre by ", 100 * balanced.centreError,
+             " % of the solid's diagonal; more elements would do"));
 }
 
 }  // namespace
@@ -157,8 +184,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   report(kProgressMeshes, "building meshes");
   Asset asset;
   asset.radius = elements.radius;
-  asset.positions = std::move(elements.centres);
-  measureCells(diagram, asset);
+  placeElements(solid, diagram, std::move(elements.centres), log, asset);
   const double spacing = asset.spacing();
   asset.springs = findSprings(diagram, pieces, options.minFaceArea * spacing * spacing);
   if (options.anchorDirection)

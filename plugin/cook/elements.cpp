@@ -109,9 +109,12 @@ Elements Packer::fillEvenly() const {
     const double taken = isGiven ? radius : radiusInThinParts(packing.rooms, radius);
     for (std::size_t i = 0; i < packing.rooms.size(); ++i)
       packing.deepestProtrusion = std::max(packing.deepestProtrusion, taken - packing.rooms[i]);
+    // Where most of the solid is thinner than they are, as many would not fit in any way.
+    const bool isMuch =
+        taken < kLeastRadius * wantedRadius() || roomOfAllBut(0.5, packing.rooms) < wantedRadius();
     Elements elements = finish(packing, taken);
     if (!isGiven && taken < wantedRadius())
-      noteShrink(taken < kLeastRadius * wantedRadius() ? LogLevel::Warning : LogLevel::Info, taken, elements);
+      noteShrink(isMuch ? LogLevel::Warning : LogLevel::Info, taken, elements);
     return elements;
   }
 }

@@ -14,8 +14,17 @@ constexpr double kSpacing = 0.5;  // [radii] measured: errors of 0.07 to 0.25 r 
 constexpr double kReach = 4;      // [spacings] beyond the radius; the last pushes ask 2 fastError() beyond it
 constexpr double kFarSlack = 0.5;  // of distances far outside, which only say where to go
 constexpr int kAxisBits = 21;      // of a block's number along each axis
+constexpr int kKnownBits = 10;     // of the number of blocks that are found without a search: 16 KB
+// Distances [of the solid's diagonal] that say on which side a place is; those of places on the surface do
+// not.
+constexpr double kSurelyBeside = 1e-9;
 // Of the grid's edge, which then has 2^21 blocks of 4 nodes or less.
 constexpr double kMostNodesAlong = 8e6;
+
+// The top bits of a product that all bits of the key go into [Knuth, 6.4].
+std::size_t scatter(std::uint64_t key, int bits) {
+  return std::size_t((key * 0x9e3779b97f4a7c15u) >> (64 - bits));
+}
 
 }  // namespace
 
@@ -24,7 +33,8 @@ std::unique_ptr<SignedDistance> signedDistance(const CheckedMesh& mesh) {
   return std::make_unique<GridDistance>(mesh);
 }
 
-GridDistance::GridDistance(const CheckedMesh& mesh) : m_mesh(mesh), m_tree(mesh) {}
+GridDistance::GridDistance(const CheckedMesh& mesh)
+    : m_mesh(mesh), m_tree(mesh), m_known(std::size_t{1} << kKnownBits) {}
 
 void GridDistance::fitTo(double radius) {
   assert(radius > 0);
@@ -37,17 +47,17 @@ void GridDistance::fitTo(double radius) {
   m_reach = reach;
   m_origin = m_mesh.bounds.min() - Eigen::Vector3d::Constant(m_reach + m_spacing);
   m_blocks.clear();
-  m_lastBlock = nullptr;
+  std::fill(m_known.begin(), m_known.end(), Known{});
 }
 
 GridDistance::Block& GridDistance::block(std::uint64_t key) const {
-  if (m_lastBlock == nullptr || m_lastKey != key) {
+  Known& known = m_known[scatter(key, kKnownBits)];
+  if (known.block == nullptr || known.key != key) {
     const auto [entry, isNew] = m_blocks.try_emplace(key);
     if (isNew) entry->second.fill(std::numeric_limits<float>::quiet_NaN());
-    m_lastKey = key;
-    m_lastBlock = &entry->second;
+    known = {key, &entry->second};
   }
-  return *m_lastBlock;
+  return *known.block;
 }
 
 double GridDistance::nodeValue(const std::array<std::int32_t, 3>& node) const {
@@ -78,7 +88,7 @@ float GridDistance::measure(const std::array<std::int32_t, 3>& node, const Block
         return float(std::copysign(distance, double(neighbour)));
     }
   }
-  return float(m_tree.holds(place) ? -distance : distance);
+  return float(holds(place, distance) ? -distance : distance);
 }
 
 Distance GridDistance::farOutside(const Eigen::Vector3d& p) const {
@@ -116,12 +126,24 @@ Distance GridDistance::fast(const Eigen::Vector3d& p) const {
   return result;
 }
 
+// Whether a place so far from the surface is inside: on the same side as the place asked for last, if a ball
+// about one of them that holds no surface holds both.
+bool GridDistance::holds(const Eigen::Vector3d& place, double distance) const {
+  const double apart = (place - m_lastPlace).norm();
+  const bool isSameSide =
+      m_lastValue != 0 && (1 + kSurelyBeside) * apart < std::max(distance, std::abs(m_lastValue));
+  const bool isInside = isSameSide ? m_lastValue < 0 : m_tree.holds(place);
+  m_lastPlace = place;
+  m_lastValue = distance < kSurelyBeside * m_mesh.diagonal() ? 0 : isInside ? -distance : distance;
+  return isInside;
+}
+
 Distance GridDistance::exact(const Eigen::Vector3d& p) const {
   const TriangleTree::Closest closest = m_tree.closest(p);
   const double distance = std::sqrt(closest.squaredDistance);
   if (distance == 0) return {0, m_mesh.normals[closest.triangle]};
   const Eigen::Vector3d away = (p - closest.point) / distance;
-  return m_tree.holds(p) ? Distance{-distance, -away} : Distance{distance, away};
+  return holds(p, distance) ? Distance{-distance, -away} : Distance{distance, away};
 }
 
 }  // namespace rubble::cooking

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 #include "cook/signed_distance.h"
 #include "cook/triangle_tree.h"
@@ -40,6 +41,7 @@ class GridDistance final : public SignedDistance {
 
   Distance farOutside(const Eigen::Vector3d& place) const;
   Block& block(std::uint64_t key) const;
+  bool holds(const Eigen::Vector3d& place, double distance) const;
   double nodeValue(const std::array<std::int32_t, 3>& node) const;
   float measure(const std::array<std::int32_t, 3>& node, const Block& nodes, std::size_t inBlock) const;
 
@@ -49,8 +51,15 @@ class GridDistance final : public SignedDistance {
   double m_spacing = 0;
   double m_reach = 0;
   mutable std::unordered_map<std::uint64_t, Block> m_blocks;
-  mutable std::uint64_t m_lastKey = 0;
-  mutable Block* m_lastBlock = nullptr;
+  // The blocks asked for last, by some bits of their keys.
+  struct Known {
+    std::uint64_t key = 0;
+    Block* block = nullptr;
+  };
+  mutable std::vector<Known> m_known;
+  // The place last measured exactly, and its signed distance; 0: none that says anything about its side.
+  mutable Eigen::Vector3d m_lastPlace = Eigen::Vector3d::Zero();
+  mutable double m_lastValue = 0;
   mutable std::size_t m_nodesMeasured = 0;
 };
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace rubble::cooking {
 
@@ -17,27 +20,36 @@ class PolyhedronIntegrals {
     const Eigen::Vector3d a = p - m_origin;
     const Eigen::Vector3d b = q - m_origin;
     const Eigen::Vector3d c = r - m_origin;
+    const Eigen::Vector3d sum = a + b + c;
     const double volume = a.dot(b.cross(c)) / 6;
     m_volume += volume;
-    m_first += volume / 4 * (a + b + c);
+    m_first += volume / 4 * sum;
     m_second +=
-        volume / 10 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + a.dot(b) + b.dot(c) + c.dot(a));
+        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
 
   double volume() const { return m_volume; }  // [m^3]
   Eigen::Vector3d centroid() const { return m_origin + m_first / m_volume; }
+  /// Mean of d d^T, d from the centroid [m^2].
+  Eigen::Matrix3d spread() const {
+    const Eigen::Vector3d centre = m_first / m_volume;
+    return m_second / m_volume - centre * centre.transpose();
+  }
   /// A third of the trace of the inertia tensor about the centroid, of unit mass [m^2]. The trace is twice
-  /// the integral of the squared distance, since each axis misses one of three squares.
-  double gyration() const {
-    const double aboutCentroid = m_second / m_volume - (m_first / m_volume).squaredNorm();
-    return 2 * aboutCentroid / 3;
+  /// the mean of the squared distance, since each axis misses one of three squares.
+  double gyration() const { return 2 * spread().trace() / 3; }
+  /// Of a box that spreads alike, along its thinnest axis [m].
+  double thickness() const {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(spread(), Eigen::EigenvaluesOnly);
+    return std::sqrt(12 * std::max(eigen.eigenvalues()[0], 0.0));
   }
 
  private:
   Eigen::Vector3d m_origin;
   double m_volume = 0;
-  Eigen::Vector3d m_first = Eigen::Vector3d::Zero();  // integral of x
-  double m_second = 0;                                // integral of |x|^2
+  Eigen::Vector3d m_first = Eigen::Vector3d::Zero();   // integral of x
+  Eigen::Matrix3d m_second = Eigen::Matrix3d::Zero();  // integral of x x^T
 };
 
 }  // namespace rubble::cooking

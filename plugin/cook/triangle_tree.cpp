@@ -62,6 +62,16 @@ bool edgeCrossed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double y, d
   return y < a.y() + (z - a.z()) / (b.z() - a.z()) * (b.y() - a.y());
 }
 
+// From the box, 0 inside it.
+double squaredDistance(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& place) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beside = std::max({box.min()[axis] - place[axis], place[axis] - box.max()[axis], 0.0});
+    sum += beside * beside;
+  }
+  return sum;
+}
+
 // Into axes along the long edges of the mesh, the last one along the longest, where the boxes around
 // triangles hold least but them. Large architecture is mostly made so.
 Eigen::Matrix3d turnTo(const CheckedMesh& mesh) {
@@ -107,6 +117,8 @@ TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh), m_turn(turnT
     m_vertices.emplace_back(m_turn * vertex);
     m_bounds.extend(m_vertices.back());
   }
+  for (const auto& [a, b, c] : mesh.triangles)
+    m_corners.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   std::vector<Piece> pieces = split();
   m_nodes.reserve(pieces.size());
   build(pieces, 0, std::uint32_t(pieces.size()));
@@ -180,31 +192,36 @@ void TriangleTree::build(std::vector<Piece>& pieces, std::uint32_t first, std::u
 TriangleTree::Closest TriangleTree::closest(const Eigen::Vector3d& place, double reach, double slack) const {
   const Eigen::Vector3d turned = m_turn * place;
   Closest best{place, kNoElement, reach * reach};
+  const auto tryOne = [&](std::uint32_t triangle) {
+    const auto& [a, b, c] = m_corners[triangle];
+    const Eigen::Vector3d point = closestOnTriangle(place, a, b, c);
+    const double distance = (point - place).squaredNorm();
+    if (distance < best.squaredDistance || (distance == best.squaredDistance && triangle < best.triangle))
+      best = {point, triangle, distance};
+    ++m_trianglesTried;
+  };
   const double shorter = 1 / ((1 + slack) * (1 + slack));
   struct Waiting {
     std::uint32_t node;
     double squaredDistance;
   };
-  std::array<Waiting, kDeepest> stack{};
+  std::array<Waiting, kDeepest> stack;
   std::size_t depth = 1;
-  stack[0] = {0, m_nodes[0].box.squaredExteriorDistance(turned)};
+  stack[0] = {0, squaredDistance(m_nodes[0].box, turned)};
+  std::uint32_t last = kNoElement;
   while (depth > 0) {
     const Waiting next = stack[--depth];
     if (next.squaredDistance > best.squaredDistance * shorter) continue;
     const Node& node = m_nodes[next.node];
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
       const std::uint32_t triangle = m_order[k];
-      const auto& [a, b, c] = m_mesh.triangles[triangle];
-      const Eigen::Vector3d point =
-          closestOnTriangle(place, m_mesh.vertices[a], m_mesh.vertices[b], m_mesh.vertices[c]);
-      const double distance = (point - place).squaredNorm();
-      if (distance < best.squaredDistance || (distance == best.squaredDistance && triangle < best.triangle))
-        best = {point, triangle, distance};
+      if (triangle == last || triangle == best.triangle) continue;  // another part of it was met before
+      tryOne(triangle);
+      last = triangle;
     }
-    m_trianglesTried += node.count;
     if (node.count > 0) continue;
-    const Waiting left{next.node + 1, m_nodes[next.node + 1].box.squaredExteriorDistance(turned)};
-    const Waiting right{node.first, m_nodes[node.first].box.squaredExteriorDistance(turned)};
+    const Waiting left{next.node + 1, squaredDistance(m_nodes[next.node + 1].box, turned)};
+    const Waiting right{node.first, squaredDistance(m_nodes[node.first].box, turned)};
     const bool leftIsNearer = left.squaredDistance <= right.squaredDistance;
     stack[depth++] = leftIsNearer ? right : left;
     stack[depth++] = leftIsNearer ? left : right;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -56,8 +57,9 @@ class TriangleTree {
   double crossing(std::uint32_t triangle, double y, double z) const;
 
   const CheckedMesh& m_mesh;
-  const Eigen::Matrix3d m_turn;  // into the tree's axes, in which the boxes are
-  std::vector<Eigen::Vector3d> m_vertices;
+  const Eigen::Matrix3d m_turn;                           // into the tree's axes, in which the boxes are
+  std::vector<Eigen::Vector3d> m_vertices;                // turned
+  std::vector<std::array<Eigen::Vector3d, 3>> m_corners;  // of each triangle, as in the mesh
   Eigen::AlignedBox3d m_bounds;
   std::vector<std::uint32_t> m_order;  // triangle of each piece
   std::vector<Node> m_nodes;

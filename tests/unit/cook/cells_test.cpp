@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/strict_cook.h"
+#include "unit/cook/packed.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -159,6 +160,8 @@ INSTANTIATE_TEST_SUITE_P(Solids, Cells, testing::Range<std::size_t>(0, cellsCase
 // Oracle: random points belong to their nearest element. Binomial statistics, five standard deviations.
 TEST(Cells, VolumesAreThoseOfTheNearestElement) {
   const Asset asset = cookStrictly(ell(), optionsFor(40));
+  const std::vector<Eigen::Vector3d> sites = pack(ell(), optionsFor(40)).centres;
+  ASSERT_EQ(sites.size(), asset.elementCount());
   constexpr int kSamples = 100000;
   std::vector<int> hits(asset.elementCount(), 0);
   std::mt19937_64 generator(7);
@@ -169,7 +172,7 @@ TEST(Cells, VolumesAreThoseOfTheNearestElement) {
     ++inside;
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < asset.elementCount(); ++i)
-      if ((asset.positions[i] - p).squaredNorm() < (asset.positions[nearest] - p).squaredNorm()) nearest = i;
+      if ((sites[i] - p).squaredNorm() < (sites[nearest] - p).squaredNorm()) nearest = i;
     ++hits[nearest];
   }
   for (std::size_t i = 0; i < asset.elementCount(); ++i) {

@@ -6,6 +6,7 @@
 #include "cook/grid_distance.h"
 #include "cook/triangle_tree.h"
 #include "support/strict_cook.h"
+#include "unit/cook/packed.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -24,7 +25,7 @@ TEST(Packing, OfTheWallIsExactAndInsideAndHardlyOverlaps) {
   ASSERT_EQ(wall.elementCount(), 2048u);
   EXPECT_EQ(wall.radius, 0.016);
   const Eigen::Vector3d half(0.5, 0.5, 0.04);
-  for (const Eigen::Vector3d& p : wall.positions)
+  for (const Eigen::Vector3d& p : pack(wallMesh(), wallOptions()).centres)
     EXPECT_GE((half - p.cwiseAbs()).minCoeff(), wall.radius * (1 - 1e-9));
   EXPECT_LE(deepestOverlap(wall), wallOptions().maxOverlap);
 }
@@ -32,19 +33,21 @@ TEST(Packing, OfTheWallIsExactAndInsideAndHardlyOverlaps) {
 // The distance is exact at the end, so the spheres are inside to the tolerance of the last push.
 TEST(Packing, StaysInsideATorus) {
   const Asset asset = cookStrictly(torus(1, 0.3, 64, 32), optionsFor(500));
-  for (const Eigen::Vector3d& p : asset.positions) {
+  const cooking::Elements packed = pack(torus(1, 0.3, 64, 32), optionsFor(500));
+  for (const Eigen::Vector3d& p : packed.centres) {
     const double fromRing = std::hypot(std::hypot(p.x(), p.y()) - 1, p.z());
-    EXPECT_LE(fromRing + asset.radius, 0.3 + 1e-3 * asset.radius);  // the mesh lies inside of the true torus
+    EXPECT_LE(fromRing + packed.radius,
+              0.3 + 1e-3 * packed.radius);  // the mesh lies inside of the true torus
   }
   EXPECT_LE(deepestOverlap(asset), 0.05);
 }
 
 TEST(Packing, KeepsOutOfACavity) {
-  const Asset asset = cookStrictly(hollowCube(), optionsFor(300));
-  for (const Eigen::Vector3d& p : asset.positions) {
-    EXPECT_LE(p.cwiseAbs().maxCoeff(), 0.5 - 0.99 * asset.radius);
+  const cooking::Elements packed = pack(hollowCube(), optionsFor(300));
+  for (const Eigen::Vector3d& p : packed.centres) {
+    EXPECT_LE(p.cwiseAbs().maxCoeff(), 0.5 - 0.99 * packed.radius);
     const Eigen::Vector3d outside = (p.cwiseAbs() - Eigen::Vector3d::Constant(0.25)).cwiseMax(0.0);
-    EXPECT_GE(outside.norm(), 0.99 * asset.radius);
+    EXPECT_GE(outside.norm(), 0.99 * packed.radius);
   }
 }
 

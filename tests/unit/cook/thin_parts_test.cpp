@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/strict_cook.h"
+#include "unit/cook/packed.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -55,7 +56,7 @@ TEST(ThinParts, LegsOfATableHaveElementsThatFitInside) {
   const double leg = 0.06;
   const Asset asset = cookStrictly(table(0.1, leg), optionsFor(400));
   std::array<int, 4> inLegs{};
-  for (const Eigen::Vector3d& p : asset.positions) {
+  for (const Eigen::Vector3d& p : packEvenly(table(0.1, leg), optionsFor(400)).centres) {
     if (p.y() > 0.7) continue;
     const bool isRight = p.x() > 0.6;
     const bool isBack = p.z() > 0.4;
@@ -141,17 +142,27 @@ TEST(ThinParts, AreNotToldOfWhereElementsFit) {
   EXPECT_EQ(foretold(boxMesh({1, 1, 0.3}), optionsFor(300)).text, "");
 }
 
-// At its second packing as well.
+// At its second packing as well: of a thousand elements each has room in the legs, but they are left without.
 TEST(ThinParts, KeepTheProgressGoing) {
   std::vector<double> packing;
   std::size_t cuts = 0;
-  cook(table(0.1, 0.06), optionsFor(400), [&](double share, const char* stage) {
+  cook(table(0.1, 0.06), optionsFor(1000), [&](double share, const char* stage) {
     cuts += std::string(stage) == "cutting cells" ? 1 : 0;
     if (std::string(stage) == "packing" && cuts == 1) packing.push_back(share);
   });
   ASSERT_EQ(cuts, 2u);
   ASSERT_GT(packing.size(), 2u);
   EXPECT_GT(packing.back(), packing.front());
+}
+
+// What is foretold to be too thin is not packed in vain first.
+TEST(ThinParts, ThatAreForetoldArePackedEvenlyAtOnce) {
+  for (const std::size_t elements : {300u, 400u}) {
+    std::size_t cuts = 0;
+    cook(table(0.1, 0.06), optionsFor(elements),
+         [&cuts](double, const char* stage) { cuts += std::string(stage) == "cutting cells" ? 1 : 0; });
+    EXPECT_EQ(cuts, 1u);
+  }
 }
 
 // In a solid that is thin nearly everywhere all elements fit, and the message says how many would fill it.
