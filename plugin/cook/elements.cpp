@@ -26,6 +26,8 @@ constexpr double kWithoutRoom = 0.005;
 constexpr double kLeastRadius = 0.5;
 constexpr double kLeastRoom = 0.8;
 
+constexpr double kSpreadShare = 0.5;  // of an even filling's time
+
 double ballVolume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
@@ -127,7 +129,8 @@ double Packer::wantedRadius() const {
 std::vector<Room> Packer::startPlaces(double radius) const {
   m_distance->fitTo(radius);
   const double spacing = std::cbrt(m_mesh.volume / double(m_options.elements));
-  return spread(*m_distance, m_mesh, {m_options.elements, radius, spacing, mix(m_options.seed)});
+  return spread(*m_distance, m_mesh, {m_options.elements, radius, spacing, mix(m_options.seed)},
+                [this](double share) { m_progress(kSpreadShare * share); });
 }
 
 double Packer::radiusInThinParts(const std::vector<double>& rooms, double radius) const {
@@ -143,7 +146,9 @@ Packing Packer::packCount(std::size_t count, double radius, std::span<const Room
   m_distance->fitTo(radius);
   const PackingDef def{count, radius, mix(m_options.seed), m_options.maxOverlap, m_options.maxIterations,
                        start};
-  return pack(*m_distance, m_mesh.bounds, def, m_progress);
+  const double done = start.empty() ? 0 : kSpreadShare;
+  return pack(*m_distance, m_mesh.bounds, def,
+              [this, done](double share) { m_progress(done + (1 - done) * share); });
 }
 
 bool Packer::fits(const Packing& packing) const {

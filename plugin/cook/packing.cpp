@@ -22,7 +22,9 @@ constexpr int kTries = 20000;          // for one element, before giving up
 constexpr int kTriesEach = 256;        // for all elements together, on average
 constexpr int kClimbs = 255;           // for the depth of the solid, where elements found no room
 constexpr int kClimbTries = 40;        // steps of one of them; halved so often a step is nothing
-constexpr double kFits = 1e-6;         // [r] tolerance of "a sphere fits here"
+constexpr double kStartShare = 0.5;    // of the time, of a start at random
+constexpr double kPolishShare = 0.1;
+constexpr double kFits = 1e-6;  // [r] tolerance of "a sphere fits here"
 
 // A uniform grid over the centres, and the overlaps found with it.
 class ContactGrid {
@@ -132,31 +134,33 @@ class Relaxation {
 
   Packing run(const std::function<void(double)>& progress) {
     m_triesLeft = kTries + kTriesEach * std::int64_t(m_def.count);
-    if (!start()) {
+    if (!start(progress)) {
       climb();
       return std::move(m_packing);
     }
+    const double started = m_def.start.empty() ? kStartShare : 0;
     for (int& iteration = m_packing.iterations;; ++iteration) {
       m_packing.deepestOverlap = findOverlaps();
       if (m_packing.deepestOverlap <= m_def.maxOverlap || iteration >= m_def.maxIterations) break;
       applyMoves();
       project(false);
       if (iteration % kRestartPeriod == kRestartPeriod - 1) restartStuck();
-      progress(double(iteration) / m_def.maxIterations);
+      progress(started + (1 - kPolishShare - started) * iteration / m_def.maxIterations);
     }
-    if (m_distance.fastError() > 0) polish();
+    if (m_distance.fastError() > 0) polish(progress);
     m_packing.deepestProtrusion = *std::max_element(m_protrusion.begin(), m_protrusion.end());
     return std::move(m_packing);
   }
 
  private:
-  bool start() {
+  bool start(const std::function<void(double)>& progress) {
     for (std::size_t i = 0; i < m_def.start.size(); ++i) {
       m_packing.centres.push_back(m_def.start[i].place);
       m_packing.rooms[i] = m_def.start[i].depth;
     }
     if (!m_def.start.empty()) return true;
     for (std::size_t i = 0; i < m_def.count; ++i) {
+      progress(kStartShare * double(i) / double(m_def.count));
       Eigen::Vector3d place;
       if (!findRoom(place)) return false;
       m_packing.centres.push_back(place);
@@ -291,9 +295,10 @@ class Relaxation {
   }
 
   // The fast distance is off near edges of the surface; what it left there is mended with the exact one.
-  void polish() {
+  void polish(const std::function<void(double)>& progress) {
     project(true);
     for (int k = 0;; ++k) {
+      progress(1 - kPolishShare + kPolishShare * k / kPolishIterations);
       m_packing.deepestOverlap = findOverlaps();
       if (m_packing.deepestOverlap <= m_def.maxOverlap || k >= kPolishIterations) break;
       applyMoves();

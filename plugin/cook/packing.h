@@ -38,7 +38,8 @@ struct Packing {
 
 /// Random start where a sphere fits, then overdamped contact moves and pushes back inside until the spheres
 /// hardly overlap. The paper integrates its contact force law; at rest both end in the same state, and this
-/// needs no time step. A lattice would pack faster but leaves planes of weakness.
+/// needs no time step. A lattice would pack faster but leaves planes of weakness. `progress` is told the
+/// share done: at each element that looks for room, and at each iteration.
 Packing pack(const SignedDistance& distance, const Eigen::AlignedBox3d& bounds, const PackingDef& def,
              const std::function<void(double)>& progress);
 

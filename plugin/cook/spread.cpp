@@ -20,6 +20,11 @@ constexpr double kOnSpacing = 6;  // candidates on each squared spacing of the s
 constexpr int kBisections = 16;   // of the distance, in powers
 constexpr double kCloser = 0.9;   // by which the distance shrinks for the last elements
 
+// Shares of the time when candidates from the volume and then those from the surface are there, as measured
+// in shells; the rest throws darts.
+constexpr double kVolumeDone = 0.4;
+constexpr double kSurfaceDone = 0.9;
+
 // Which of the candidates thrown so far are near: a uniform grid with a list in each cell.
 class DartBoard {
  public:
@@ -80,8 +85,9 @@ class DartBoard {
 
 class Spread {
  public:
-  Spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def)
-      : m_distance(distance), m_mesh(mesh), m_def(def), m_random(def.seed) {}
+  Spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def,
+         const std::function<void(double)>& progress)
+      : m_distance(distance), m_mesh(mesh), m_def(def), m_progress(progress), m_random(def.seed) {}
 
   std::vector<Room> run() {
     addFromVolume();
@@ -92,6 +98,7 @@ class Spread {
     double fewEnough = m_mesh.diagonal();
     while (tooMany > 0 && throwDarts(tooMany).size() < m_def.count) tooMany /= 4;
     for (int k = 0; k < kBisections; ++k) {
+      m_progress(kSurfaceDone + (1 - kSurfaceDone) * k / kBisections);
       const double middle = std::sqrt(tooMany * fewEnough);
       (throwDarts(middle).size() > m_def.count ? tooMany : fewEnough) = middle;
     }
@@ -104,7 +111,10 @@ class Spread {
   void addFromVolume() {
     const Eigen::AlignedBox3d& box = m_mesh.bounds;
     const std::size_t wanted = kInVolume * m_def.count;
-    for (std::size_t k = 0; k < kVolumeTries * m_def.count && m_candidates.size() < wanted; ++k) {
+    const std::size_t tries = kVolumeTries * m_def.count;
+    for (std::size_t k = 0; k < tries && m_candidates.size() < wanted; ++k) {
+      m_progress(kVolumeDone *
+                 std::max(double(k) / double(tries), double(m_candidates.size()) / double(wanted)));
       Eigen::Vector3d place;
       for (int axis = 0; axis < 3; ++axis)
         place[axis] = box.min()[axis] + m_random.uniform() * box.sizes()[axis];
@@ -121,7 +131,9 @@ class Spread {
     const double wanted = kOnSpacing * surfaceArea(m_mesh) / (m_def.spacing * m_def.spacing);
     const std::size_t count = std::size_t(
         std::clamp(wanted, double(kLeastOnSurface * m_def.count), double(kMostOnSurface * m_def.count)));
+    std::size_t done = 0;
     for (const auto& [place, triangle] : sampleSurface(m_mesh, count, m_random)) {
+      m_progress(kVolumeDone + (kSurfaceDone - kVolumeDone) * double(done++) / double(count));
       // A little below, where the distance knows which way is in.
       constexpr double kBelow = 1e-3;
       const Room room =
@@ -166,15 +178,17 @@ class Spread {
   const SignedDistance& m_distance;
   const CheckedMesh& m_mesh;
   const SpreadDef m_def;
+  const std::function<void(double)>& m_progress;
   Random m_random;
   std::vector<Room> m_candidates;
 };
 
 }  // namespace
 
-std::vector<Room> spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def) {
+std::vector<Room> spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def,
+                         const std::function<void(double)>& progress) {
   assert(def.count > 0 && def.radius > 0 && def.spacing > 0);
-  return Spread(distance, mesh, def).run();
+  return Spread(distance, mesh, def, progress).run();
 }
 
 }  // namespace rubble::cooking

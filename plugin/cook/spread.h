@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cook/checked_mesh.h"
@@ -24,7 +25,9 @@ struct SpreadDef {
   std::uint64_t seed = 0;
 };
 
-/// Exactly `count` places, each with the room found there. `distance` is fitted to the radius.
-std::vector<Room> spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def);
+/// Exactly `count` places, each with the room found there. `distance` is fitted to the radius. `progress` is
+/// told the share done.
+std::vector<Room> spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def,
+                         const std::function<void(double)>& progress);
 
 }  // namespace rubble::cooking

@@ -72,7 +72,8 @@ struct CookOptions {
 /// (about 6 radii at the default fill), or a warning says how far. Where elements are thicker than a wall the
 /// radius chosen shrinks, to half at most for the sake of a few; a warning says which radius or how many
 /// elements would do for what protrudes after that. Throws rubble::Error for meshes that are not closed, not
-/// oriented, empty, not finite or that pass through themselves, and when the elements wanted do not fit.
+/// oriented, empty, not finite or that pass through themselves, and when the elements wanted do not fit. What
+/// `progress` throws ends the cook and reaches the caller.
 Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
            const LogFunction& log = {});
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "cook/elements.h"
 #include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
@@ -50,6 +51,50 @@ TEST(Cook, ReportsProgressThatOnlyGrows) {
     EXPECT_EQ(warnings.take("do not fit; radius"), elements == 2 ? 1 : 0);
     EXPECT_EQ(last, 1.0);
   }
+}
+
+// Without holes: what is long, an element's search for room and a candidate's climb, is told of one by one.
+void expectFineShares(const std::vector<double>& shares, double until, std::size_t atLeast) {
+  ASSERT_FALSE(shares.empty());
+  EXPECT_LT(shares.front(), 0.01);
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < shares.size() && shares[k] < until; ++k, ++count) {
+    EXPECT_GE(shares[k], shares[k - 1]);
+    EXPECT_LT(shares[k] - shares[k - 1], 0.05);
+  }
+  EXPECT_GE(count, atLeast);
+}
+
+TEST(Cook, TellsOfEachElementThatLooksForAPlace) {
+  const cooking::CheckedMesh solid = cooking::checkMesh(ell());
+  std::vector<double> random, even;
+  cooking::Packer(solid, optionsFor(200), [&random](double share) { random.push_back(share); }).fill();
+  expectFineShares(random, 0.5, 199);
+  // Of three candidates an element in the volume and four on the surface.
+  cooking::Packer(solid, optionsFor(200), [&even](double share) { even.push_back(share); }).fillEvenly();
+  expectFineShares(even, 0.5, 7 * 200);
+}
+
+TEST(Cook, NamesItsStagesInOrder) {
+  std::vector<std::string> stages;
+  cook(ell(), optionsFor(50), [&stages](double, const std::string& stage) {
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+  });
+  const std::vector<std::string> expected = {"checking the mesh", "measuring the walls", "packing",
+                                             "cutting cells",     "building meshes",     "done"};
+  EXPECT_EQ(stages, expected);
+}
+
+// There is no other way to end a cook early.
+TEST(Cook, EndsWithWhatTheProgressThrows) {
+  struct Enough {};
+  for (const std::string wanted :
+       {"checking the mesh", "measuring the walls", "packing", "cutting cells", "building meshes"})
+    EXPECT_THROW(cook(table(0.1, 0.06), optionsFor(300),
+                      [&wanted](double, const char* stage) {
+                        if (wanted == stage) throw Enough();
+                      }),
+                 Enough);
 }
 
 // The wall has 2048 elements in 60 x 60 x 2.4 diameters; along the curve consecutive ones are a few spacings
