@@ -1,6 +1,6 @@
 // Depths are those of the contacts: elements are spheres to one another, and bodies of Bullet are what the
-// plugin makes of them; among themselves Bullet measures. The spheres lie inside of the solid, so no overlap
-// is told that is none.
+// plugin makes of them; among themselves Bullet measures. Spheres at a surface may protrude a little and
+// count up to it, so no overlap is told that is none.
 #include "demo/overlaps.h"
 
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
@@ -17,7 +17,7 @@
 namespace rubble::demo {
 namespace {
 
-// Places are rounded, and spheres of a packing may protrude by a hundredth.
+// Places are rounded.
 constexpr double kTouching = 0.25;  // [radius of an element]
 constexpr double kStanding = 1;     // [radius of an element] in a static body
 constexpr double kBodies = 0.1;     // [smallest half extent] of bodies of Bullet in one another
@@ -33,20 +33,31 @@ std::string metres(double length) {
   return text;
 }
 
+// How far an element reaches: to its sphere, or to the solid's surface where that is nearer [m].
+double reachOf(const Asset& asset, std::uint32_t element) {
+  double reach = asset.radius;
+  for (const CellFace& face : asset.cellFaces(element))
+    if (face.neighbour == kNoElement)
+      reach = std::min(
+          reach, face.normal.cast<double>().dot(face.centroid.cast<double>() - asset.positions[element]));
+  return std::max(0.0, reach);
+}
+
 // An object in the world's frame.
 struct Elements {
   explicit Elements(const StandingObject& object) : radius(object.asset->radius) {
-    for (const Eigen::Vector3d& centre : object.asset->positions) centres.push_back(object.pose * centre);
+    for (std::uint32_t i = 0; i < object.asset->elementCount(); ++i) {
+      centres.push_back(object.pose * object.asset->positions[i]);
+      reaches.push_back(reachOf(*object.asset, i));
+    }
     for (const CellVertex& vertex : object.asset->vertices)
       vertices.push_back(object.pose * vertex.position.cast<double>());
-    for (const Eigen::Vector3d& centre : centres) bounds.extend(centre);
-    const Eigen::Vector3d around = Eigen::Vector3d::Constant(radius);
-    bounds = {bounds.min() - around, bounds.max() + around};
     for (const Eigen::Vector3d& vertex : vertices) bounds.extend(vertex);
   }
   double radius;  // [m]
   std::vector<Eigen::Vector3d> centres, vertices;
-  Eigen::AlignedBox3d bounds;
+  std::vector<double> reaches;  // of each element [m]
+  Eigen::AlignedBox3d bounds;  // of the solid
 };
 
 // How deep the object reaches into the collider of a body at `pose` [m]; 0 and less where they are apart.
@@ -54,8 +65,9 @@ double depthIn(edem::Collider collider, const Eigen::Isometry3d& pose, const Ele
   collider.rounding = 0;  // of hulls; what the scene says is their corners
   const Eigen::Isometry3d toBody = pose.inverse(Eigen::Isometry);
   double deepest = 0;
-  for (const Eigen::Vector3d& centre : object.centres)
-    deepest = std::max(deepest, object.radius - edem::nearest(collider, toBody * centre).distance);
+  for (std::size_t i = 0; i < object.centres.size(); ++i)
+    deepest =
+        std::max(deepest, object.reaches[i] - edem::nearest(collider, toBody * object.centres[i]).distance);
   for (const Eigen::Vector3d& vertex : object.vertices)
     deepest = std::max(deepest, -edem::nearest(collider, toBody * vertex).distance);
   return deepest;
@@ -78,14 +90,15 @@ double depthIn(const Elements& a, const Elements& b) {
   const std::vector<std::uint8_t> all(b.centres.size(), 1);
   grid.build(b.centres, all, reach);
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
-  double nearest = reach;
-  for (const Eigen::Vector3d& centre : a.centres) {
+  double deepest = 0;
+  for (std::size_t i = 0; i < a.centres.size(); ++i) {
+    const Eigen::Vector3d& centre = a.centres[i];
     if (b.bounds.squaredExteriorDistance(centre) > reach * reach) continue;
     grid.visitBox(centre - around, centre + around, [&](std::uint32_t other) {
-      nearest = std::min(nearest, (b.centres[other] - centre).norm());
+      deepest = std::max(deepest, a.reaches[i] + b.reaches[other] - (b.centres[other] - centre).norm());
     });
   }
-  return reach - nearest;
+  return deepest;
 }
 
 // Deepest contact [m].

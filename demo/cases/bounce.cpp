@@ -8,6 +8,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace bounce {
 namespace {
 
 constexpr double kEdge = 0.2, kGap = 0.05;         // [m]
@@ -85,12 +86,14 @@ CaseOutcome withError(CaseOutcome outcome, double error) {
 }
 
 }  // namespace
+}  // namespace bounce
 
 double springContactSeconds(double mass, double stiffness) {
   return std::numbers::pi * std::sqrt(mass / stiffness);
 }
 
 ReportCase bounceCase() {
+  using namespace bounce;
   constexpr double kRestitution = 0.5;
   ReportCase c{
       .name = "bounce",

@@ -7,6 +7,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace cantilever {
 namespace {
 
 constexpr double kLength = 1, kHeight = 0.1;                     // [m]
@@ -83,6 +84,7 @@ CaseOutcome runChain(double rate, int iterations) {
 }
 
 }  // namespace
+}  // namespace cantilever
 
 double timoshenkoSag(double length, double height, double x, double density, double modulus, double gravity) {
   const double load = density * gravity * height * height;  // [N/m]
@@ -93,6 +95,7 @@ double timoshenkoSag(double length, double height, double x, double density, dou
 }
 
 ReportCase cantileverCase() {
+  using namespace cantilever;
   ReportCase c{.name = "cantilever",
                .what = "A beam of 1 x 0.1 x 0.1 m, 2400 kg/m3, E 300 MPa, tied at one end, under gravity",
                .closedForm = "Timoshenko's sag of the outer tenth, 1.2 % of the length at the tip",

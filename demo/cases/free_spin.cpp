@@ -9,6 +9,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace free_spin {
 namespace {
 
 const Eigen::Vector3d kSize(0.3, 0.2, 0.1);  // [m]
@@ -103,6 +104,7 @@ CaseOutcome runStock(double rate, bool momentum) {
 }
 
 }  // namespace
+}  // namespace free_spin
 
 Eigen::Matrix3d tumbled(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& spin, double seconds) {
   constexpr int kSteps = 20000;  // classical Runge-Kutta: the error is that of rounding
@@ -127,6 +129,7 @@ Eigen::Matrix3d tumbled(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& s
 }
 
 ReportCase freeSpinCase() {
+  using namespace free_spin;
   ReportCase c{
       .name = "free_spin",
       .what =

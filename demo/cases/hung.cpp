@@ -7,6 +7,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace hung {
 namespace {
 
 // Mean over the outer tenth is linear in the depth but for the tenth's own curvature, 1e-3 of the whole.
@@ -51,12 +52,14 @@ CaseOutcome runChain(double rate, int iterations) {
 }
 
 }  // namespace
+}  // namespace hung
 
 double hungSink(double length, double depth, double density, double modulus, double gravity) {
   return density * gravity / modulus * (length * depth - depth * depth / 2);
 }
 
 ReportCase hungCase() {
+  using namespace hung;
   ReportCase c{.name = "hung",
                .what = "A bar of 1 x 0.1 x 0.1 m, 2400 kg/m3, E 30 MPa, hung by its top under its own weight",
                .closedForm = "rho g (L y - y^2 / 2) / E in the outer tenth; 0.39 mm at the tip",

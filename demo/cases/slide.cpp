@@ -6,6 +6,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace slide {
 namespace {
 
 const Eigen::Vector3d kSize(0.4, 0.1, 0.4);  // flat, so that it does not tip [m]
@@ -58,12 +59,14 @@ CaseOutcome runStock(double rate) {
 }
 
 }  // namespace
+}  // namespace slide
 
 double stopDistance(double speed, double friction, double gravity) {
   return speed * speed / (2 * friction * gravity);
 }
 
 ReportCase slideCase() {
+  using namespace slide;
   ReportCase c{
       .name = "slide",
       .what =

@@ -8,6 +8,7 @@
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
+namespace wave {
 namespace {
 
 constexpr int kPeriods = 4;     // so many are timed
@@ -55,12 +56,14 @@ CaseOutcome runChain(double rate, int iterations) {
 }
 
 }  // namespace
+}  // namespace wave
 
 double waveSeconds(double length, double density, double modulus) {
   return length / std::sqrt(modulus / density);
 }
 
 ReportCase waveCase() {
+  using namespace wave;
   ReportCase c{
       .name = "wave",
       .what = "A bar of 1 x 0.1 x 0.1 m, 2400 kg/m3, E 30 MPa, tied at its top, let go without stress",

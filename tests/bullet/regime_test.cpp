@@ -94,6 +94,10 @@ TEST(Regime, BothMomentaSurviveTheThaw) {
   w.world.setGravity({0, 0, 0});
   DestructibleBodyDef def = wallDef(Regime::RigidUntilStruck);
   def.anchored = false;
+  // A solid whose elements have another centre of mass than it, as those of few elements may.
+  const auto shifted = std::make_shared<Asset>(*def.asset);
+  for (Eigen::Vector3d& place : shifted->positions) place.y() += 0.05 * shifted->radius;
+  def.asset = shifted;
   def.transform = btTransform(btQuaternion({1, 2, 3}, btScalar(0.7)), {0, 2, 0});
   def.velocity = {1, btScalar(0.5), -2};
   def.spin = {3, -1, 2};

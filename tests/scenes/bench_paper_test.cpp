@@ -7,21 +7,14 @@
 
 #include "demo/bar_chart.h"
 #include "demo/bench_result.h"
-#include "demo/command_line.h"
 #include "demo/csv_table.h"
 #include "demo/input_error.h"
+#include "scenes/parsed.h"
 #include "scenes/scene_file.h"
 #include "scenes/xml.h"
 
 namespace rubble::test {
 namespace {
-
-demo::CommandLine parse(std::vector<std::string> words) {
-  words.insert(words.begin(), {"rubble", "bench", "paper"});
-  std::vector<char*> raw;
-  for (std::string& word : words) raw.push_back(word.data());
-  return demo::parseCommandLine(int(raw.size()), raw.data());
-}
 
 // Times that differ in every part, so that columns cannot be swapped unseen.
 std::vector<demo::BenchRow> twoRows() {
@@ -91,7 +84,7 @@ TEST(PaperTable, HasTheCellsOfThePage) {
 }
 
 TEST(BenchPaper, TheStandardIsThePapersSizeWithPictures) {
-  const demo::CommandLine line = parse({});
+  const demo::CommandLine line = parsed({"bench", "paper"});
   EXPECT_EQ(line.command, demo::CommandLine::Command::BenchPaper);
   EXPECT_EQ(line.benchPaper.width, 1280);
   EXPECT_EQ(line.benchPaper.height, 720);
@@ -102,8 +95,8 @@ TEST(BenchPaper, TheStandardIsThePapersSizeWithPictures) {
 
 TEST(BenchPaper, TakesItsOptions) {
   const demo::BenchPaperOptions options =
-      parse({"--frames", "3", "--size", "320x180", "--most-elements", "256", "--no-render", "--threads", "2",
-             "--csv", "a.csv", "--svg", "a.svg", "--write", "a.md"})
+      parsed({"bench", "paper", "--frames", "3", "--size", "320x180", "--most-elements", "256", "--no-render",
+              "--threads", "2", "--csv", "a.csv", "--svg", "a.svg", "--write", "a.md"})
           .benchPaper;
   EXPECT_EQ(options.frames, "3");
   EXPECT_EQ(options.width, 320);

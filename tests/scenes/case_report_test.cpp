@@ -9,24 +9,18 @@
 #include <set>
 
 #include "demo/cases/cases.h"
-#include "demo/command_line.h"
 #include "demo/error_plot.h"
 #include "demo/input_error.h"
+#include "scenes/parsed.h"
 #include "scenes/xml.h"
 
 namespace rubble::test {
 namespace {
 
-demo::CommandLine parse(std::vector<std::string> words) {
-  words.insert(words.begin(), {"rubble", "report"});
-  std::vector<char*> raw;
-  for (std::string& word : words) raw.push_back(word.data());
-  return demo::parseCommandLine(int(raw.size()), raw.data());
-}
-
-std::string refusalOf(const std::vector<std::string>& words) {
+std::string refusalOf(std::vector<std::string> words) {
+  words.insert(words.begin(), "report");
   try {
-    parse(words);
+    parsed(words);
   } catch (const demo::InputError& error) {
     return error.what();
   }
@@ -34,9 +28,9 @@ std::string refusalOf(const std::vector<std::string>& words) {
 }
 
 TEST(CaseReport, NamesAreCasesAndAScenesNameIsAScene) {
-  EXPECT_EQ(parse({"cantilever"}).command, demo::CommandLine::Command::CaseReport);
-  EXPECT_EQ(parse({"wall"}).command, demo::CommandLine::Command::Report);
-  const demo::CommandLine line = parse({"--all", "--quick", "--out", "o", "--write", "w.md"});
+  EXPECT_EQ(parsed({"report", "cantilever"}).command, demo::CommandLine::Command::CaseReport);
+  EXPECT_EQ(parsed({"report", "wall"}).command, demo::CommandLine::Command::Report);
+  const demo::CommandLine line = parsed({"report", "--all", "--quick", "--out", "o", "--write", "w.md"});
   EXPECT_EQ(line.command, demo::CommandLine::Command::CaseReport);
   EXPECT_TRUE(line.caseReport.all);
   EXPECT_TRUE(line.caseReport.quick);

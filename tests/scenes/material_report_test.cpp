@@ -3,30 +3,23 @@
 
 #include <gtest/gtest.h>
 
-#include "demo/command_line.h"
 #include "demo/input_error.h"
+#include "scenes/parsed.h"
 
 namespace rubble::test {
 namespace {
 
-demo::CommandLine parse(std::vector<std::string> words) {
-  words.insert(words.begin(), {"rubble", "report"});
-  std::vector<char*> raw;
-  for (std::string& word : words) raw.push_back(word.data());
-  return demo::parseCommandLine(int(raw.size()), raw.data());
-}
-
 TEST(MaterialReport, IsAskedForByItsName) {
-  const demo::CommandLine line = parse({"materials", "--out", "o", "--write", "w.md"});
+  const demo::CommandLine line = parsed({"report", "materials", "--out", "o", "--write", "w.md"});
   EXPECT_EQ(line.command, demo::CommandLine::Command::MaterialReport);
   EXPECT_EQ(line.materialReport.folder, "o");
   EXPECT_EQ(line.materialReport.write, "w.md");
-  for (const std::vector<std::string>& bad : {std::vector<std::string>{"materials", "--quick"},
-                                              {"materials", "--seed", "2"},
-                                              {"materials", "cantilever"},
-                                              {"materials", "--set", "seed=1"},
-                                              {"materials", "--all"}})
-    EXPECT_THROW(parse(bad), demo::InputError) << bad[1];
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"report", "materials", "--quick"},
+                                              {"report", "materials", "--seed", "2"},
+                                              {"report", "materials", "cantilever"},
+                                              {"report", "materials", "--set", "seed=1"},
+                                              {"report", "materials", "--all"}})
+    EXPECT_THROW(parsed(bad), demo::InputError) << bad.back();
 }
 
 TEST(MaterialReport, TheTablesTellWhatWasAskedAndReached) {
