@@ -94,7 +94,7 @@ struct Steps {
 /// relative to the first.
 template <class Real>
 struct ContactMotion {
-  Real overlap = 0;     ///< > 0 [m]
+  Real overlap = 0;     ///< 0 where all of it gave way [m]
   Real share = 1;       ///< of the normal spring's force, see touchShare
   Real withheld = 0;    ///< share of the normal force, see withheld in fragment_motion.h
   Vec3<Real> normal;    ///< unit
@@ -203,7 +203,7 @@ ContactLoad<Real> slidingLoad(const ContactLaw<Real>& law, const ContactMotion<R
 template <class Real>
 ContactLoad<Real> contactLoad(const ContactLaw<Real>& law, const ContactMotion<Real>& motion, Real moved,
                               ContactMemory<Real>& memory) {
-  assert(motion.overlap > 0 && law.stiffness >= 0 && law.damping >= 0 && moved >= 0);
+  assert(motion.overlap >= 0 && law.stiffness >= 0 && law.damping >= 0 && moved >= 0);
   assert(std::abs(motion.normal.squaredNorm() - Real(1)) < Real(1e-3));  // looser than any scalar's rounding
   const Vec3<Real>& normal = motion.normal;
   const Real pushed = law.stiffness * motion.overlap * motion.share;
