@@ -57,7 +57,7 @@ struct Elements {
   double radius;  // [m]
   std::vector<Eigen::Vector3d> centres, vertices;
   std::vector<double> reaches;  // of each element [m]
-  Eigen::AlignedBox3d bounds;  // of the solid
+  Eigen::AlignedBox3d bounds;   // of the solid
 };
 
 // How deep the object reaches into the collider of a body at `pose` [m]; 0 and less where they are apart.
