@@ -104,10 +104,10 @@ ReportCase cantileverCase() {
   const double standard = DestructionDef{}.substepSafety;
   const auto add = [&](const std::string& method, Precision precision, double safety, std::size_t elements,
                        bool sleep) {
-    c.runs.push_back({"elements, " + precisionName(precision) + ", " + method,
-                      std::to_string(elements) + " elements, substep_safety " + rounded(safety), sleep,
-                      elements == kCoarse && safety == standard,
-                      [=] { return runElements(precision, safety, elements, sleep); }});
+    c.runs.push_back(elementsRun(precision, method, safety, elements,
+                                 [=] { return runElements(precision, safety, elements, sleep); }));
+    c.runs.back().standard = sleep;
+    c.runs.back().quick = elements == kCoarse && safety == standard;
   };
   for (const std::size_t elements : {kCoarse, kMiddle})
     add("asleep at rest", Precision::Float, standard, elements, true);
@@ -117,13 +117,9 @@ ReportCase cantileverCase() {
     for (const double safety : {standard, standard / 2, standard / 4})
       add("shorter substeps", precision, safety, kCoarse, false);
   }
-  for (const int iterations : {10, 30, 100}) {
-    for (const double rate : {60.0, 240.0, 1000.0}) {
-      c.runs.push_back({"Bullet's btFixedConstraint, " + std::to_string(iterations) + " iterations",
-                        rounded(rate) + " Hz", false, iterations == 10,
-                        [=] { return runChain(rate, iterations); }});
-    }
-  }
+  const std::vector<CaseRun> chain =
+      chainRuns("btFixedConstraint", {10, 30, 100}, {60.0, 240.0, 1000.0}, runChain);
+  c.runs.insert(c.runs.end(), chain.begin(), chain.end());
   return c;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "demo/markdown_table.h"
 #include "demo/processor_time.h"
@@ -108,6 +109,24 @@ std::vector<CaseRun> substepRuns(const std::string& quantity,
     add(standard.substepSafety, true);
     for (const double part : parts) add(standard.substepSafety * part, false);
   }
+  return runs;
+}
+
+CaseRun elementsRun(Precision precision, const std::string& method, double safety, std::size_t elements,
+                    std::function<CaseOutcome()> run) {
+  return {"elements, " + precisionName(precision) + ", " + method,
+          std::to_string(elements) + " elements, substep_safety " + rounded(safety), false, false,
+          std::move(run)};
+}
+
+std::vector<CaseRun> chainRuns(const std::string& joint, std::initializer_list<int> iterations,
+                               std::initializer_list<double> rates,
+                               const std::function<CaseOutcome(double rate, int iterations)>& run) {
+  std::vector<CaseRun> runs;
+  for (const int count : iterations)
+    for (const double rate : rates)
+      runs.push_back({"Bullet's " + joint + ", " + std::to_string(count) + " iterations",
+                      rounded(rate) + " Hz", false, count == 10, [=] { return run(rate, count); }});
   return runs;
 }
 

@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "bullet/convert.h"
 #include "demo/report_case.h"
 #include "rubble/destruction.h"
 
@@ -58,12 +60,7 @@ std::shared_ptr<const Asset> cookedBox(const Eigen::Vector3d& size, std::size_t 
 /// Of all elements, at rest in their world's axes or moved [m].
 std::vector<Eigen::Vector3d> placesOf(const DestructibleBody& body);
 
-inline btVector3 toBullet(const Eigen::Vector3d& v) {
-  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
-}
-inline Eigen::Vector3d fromBullet(const btVector3& v) {
-  return {double(v.x()), double(v.y()), double(v.z())};
-}
+using bullet::toBullet;
 
 /// Runs of the elements in both precisions, each at the default share of the stable substep and at those
 /// parts of it; `run` gets precision and share. `quantity` goes before the method's name where it is not
@@ -71,6 +68,16 @@ inline Eigen::Vector3d fromBullet(const btVector3& v) {
 std::vector<CaseRun> substepRuns(const std::string& quantity,
                                  const std::function<CaseOutcome(Precision, double)>& run,
                                  std::initializer_list<double> parts = {0.5, 0.25});
+
+/// A run of so many elements; `method` goes behind the precision. Neither standard nor quick.
+CaseRun elementsRun(Precision precision, const std::string& method, double safety, std::size_t elements,
+                    std::function<CaseOutcome()> run);
+
+/// Runs of a chain of Bullet's at each number of iterations, which name the method, and each rate [Hz]; those
+/// of 10 are quick.
+std::vector<CaseRun> chainRuns(const std::string& joint, std::initializer_list<int> iterations,
+                               std::initializer_list<double> rates,
+                               const std::function<CaseOutcome(double rate, int iterations)>& run);
 
 /// "float" or "double".
 std::string precisionName(Precision precision);

@@ -93,11 +93,11 @@ CaseOutcome runStock(double rate, bool momentum) {
   for (int tick = 0; tick < int(std::lround(kSimulated * rate)); ++tick) world.step(1 / rate);
   Eigen::Matrix3d rotation;
   for (int column = 0; column < 3; ++column)
-    rotation.col(column) = fromBullet(box.getWorldTransform().getBasis().getColumn(column));
+    rotation.col(column) = bullet::toEigen(box.getWorldTransform().getBasis().getColumn(column));
   if (momentum) {
     const Eigen::Vector3d expected = inertia * kSpin;
     const Eigen::Vector3d found =
-        rotation * inertia * rotation.transpose() * fromBullet(box.getAngularVelocity());
+        rotation * inertia * rotation.transpose() * bullet::toEigen(box.getAngularVelocity());
     return world.outcome((found - expected).norm() / expected.norm());
   }
   return world.outcome(angleOf(rotation.transpose() * tumbled(inertia, kSpin, kSimulated)));

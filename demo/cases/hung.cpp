@@ -68,10 +68,10 @@ ReportCase hungCase() {
   const double standard = DestructionDef{}.substepSafety;
   const auto add = [&](const std::string& method, Precision precision, double safety, std::size_t elements,
                        bool sleep) {
-    c.runs.push_back({"elements, " + precisionName(precision) + ", " + method,
-                      std::to_string(elements) + " elements, substep_safety " + rounded(safety), sleep,
-                      elements == bar::kCoarse && safety == standard,
-                      [=] { return runElements(precision, safety, elements, sleep); }});
+    c.runs.push_back(elementsRun(precision, method, safety, elements,
+                                 [=] { return runElements(precision, safety, elements, sleep); }));
+    c.runs.back().standard = sleep;
+    c.runs.back().quick = elements == bar::kCoarse && safety == standard;
   };
   add("asleep at rest", Precision::Float, standard, bar::kCoarse, true);
   for (const Precision precision : {Precision::Float, Precision::Double}) {
@@ -80,13 +80,9 @@ ReportCase hungCase() {
     for (const double safety : {standard, standard / 2, standard / 4})
       add("shorter substeps", precision, safety, bar::kCoarse, false);
   }
-  for (const int iterations : {10, 100}) {
-    for (const double rate : {1000.0, 4000.0, 16000.0}) {
-      c.runs.push_back({"Bullet's springs of 6 degrees, " + std::to_string(iterations) + " iterations",
-                        rounded(rate) + " Hz", false, iterations == 10,
-                        [=] { return runChain(rate, iterations); }});
-    }
-  }
+  const std::vector<CaseRun> chain =
+      chainRuns("springs of 6 degrees", {10, 100}, {1000.0, 4000.0, 16000.0}, runChain);
+  c.runs.insert(c.runs.end(), chain.begin(), chain.end());
   return c;
 }
 

@@ -73,23 +73,19 @@ ReportCase waveCase() {
   const double standard = DestructionDef{}.substepSafety;
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     const auto add = [&](const std::string& method, double safety, std::size_t elements, bool isStandard) {
-      c.runs.push_back({"elements, " + precisionName(precision) + ", " + method,
-                        std::to_string(elements) + " elements, substep_safety " + rounded(safety), isStandard,
-                        isStandard || elements == bar::kCoarse,
-                        [=] { return runElements(precision, safety, elements); }});
+      c.runs.push_back(elementsRun(precision, method, safety, elements,
+                                   [=] { return runElements(precision, safety, elements); }));
+      c.runs.back().standard = isStandard;
+      c.runs.back().quick = isStandard || elements == bar::kCoarse;
     };
     for (const std::size_t elements : {bar::kCoarse, bar::kMiddle, bar::kFine})
       add("more elements", standard, elements, elements == bar::kCoarse && precision == Precision::Float);
     for (const double part : {1.0, 0.5, 0.25, 0.1})
       add("shorter substeps", standard * part, bar::kCoarse, false);
   }
-  for (const int iterations : {10, 100}) {
-    for (const double rate : {1000.0, 4000.0, 16000.0}) {
-      c.runs.push_back({"Bullet's springs of 6 degrees, " + std::to_string(iterations) + " iterations",
-                        rounded(rate) + " Hz", false, iterations == 10,
-                        [=] { return runChain(rate, iterations); }});
-    }
-  }
+  const std::vector<CaseRun> chain =
+      chainRuns("springs of 6 degrees", {10, 100}, {1000.0, 4000.0, 16000.0}, runChain);
+  c.runs.insert(c.runs.end(), chain.begin(), chain.end());
   return c;
 }
 
