@@ -68,7 +68,7 @@ TEST_F(AssertDeathTest, AContactRefusesANormalThatIsNotUnit) {
 TEST_F(AssertDeathTest, AContactRefusesAGap) {
   const edem::ContactMotion<double> motion{-1e-3, 1, 0, {0, 1, 0}, {0, -1, 0}, {0, 0, 0}};
   edem::ContactMemory<double> memory;
-  EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "overlap > 0");
+  EXPECT_DEATH(edem::contactLoad({1e6, 10}, motion, 0.0, memory), "overlap >= 0");
 }
 
 TEST_F(AssertDeathTest, TheBoundRefusesNegativeRates) {
