@@ -85,11 +85,10 @@ Spring<Real> makeSpring(std::uint32_t first, std::uint32_t second, double area, 
   return spring;
 }
 
-// From the middle between the two elements to the centroid of the face that their cells share, in its plane
-// [m].
+// From the middle between the two elements to the centroid of the face that their cells share [m]. Elements
+// stand beside where the cells were cut around them (cook/balance.h), so the face is not quite half-way.
 Eigen::Vector3d centroidFromMiddle(const Asset& asset, const AssetSpring& spring) {
-  const Eigen::Vector3d &first = asset.positions[spring.first], &second = asset.positions[spring.second];
-  const Eigen::Vector3d middle = 0.5 * (first + second), axis = (second - first).normalized();
+  const Eigen::Vector3d middle = 0.5 * (asset.positions[spring.first] + asset.positions[spring.second]);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double area = 0;
   for (const CellFace& face : asset.cellFaces(spring.first)) {
@@ -98,10 +97,28 @@ Eigen::Vector3d centroidFromMiddle(const Asset& asset, const AssetSpring& spring
     area += double(face.area);
   }
   if (!(area > 0)) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d offset = moment / area - axis * axis.dot(moment / area);
+  const Eigen::Vector3d offset = moment / area;
   // Assets store centroids as floats: what may be their rounding is none, or a straight column would buckle.
   const double rounding = double(std::numeric_limits<float>::epsilon()) * middle.cwiseAbs().maxCoeff();
   return offset.norm() > rounding ? offset : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+// From an element square to the face that an anchor ties [m]: in an even strain the gap opens by that much of
+// it, however far aside the face's centroid is.
+double anchorDepth(const Asset& asset, const AssetAnchor& anchor) {
+  constexpr double kLeast = 0.5;  // of the way to the centroid; less are cells that wrap around an edge
+  const Eigen::Vector3d way = anchor.point - asset.positions[anchor.element];
+  double depth = way.norm();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const CellFace& face : asset.cellFaces(anchor.element)) {
+    if (face.neighbour != kNoElement) continue;
+    const Eigen::Vector3d normal = face.normal.cast<double>();
+    const double beside = std::abs(normal.dot(anchor.point - face.centroid.cast<double>()));
+    if (beside >= nearest) continue;
+    nearest = beside;
+    depth = normal.dot(way);
+  }
+  return std::max(depth, kLeast * way.norm());
 }
 
 template <class Real>
@@ -123,8 +140,8 @@ void makeSprings(Body<Real>& body, const BodyDef& def) {
     // The far end mirrors the element beyond the tied point, so the gap opens there; only the element's own
     // half is elastic, hence half the length.
     const Eigen::Vector3d rest = 2 * (anchor.point - asset.positions[anchor.element]);
-    body.springs.push_back(makeSpring<Real>(anchor.element, anchor.element, anchor.area, 0.5 * rest.norm(),
-                                            def.material, def.model));
+    body.springs.push_back(makeSpring<Real>(anchor.element, anchor.element, anchor.area,
+                                            anchorDepth(asset, anchor), def.material, def.model));
     body.springRest.push_back(rest);
     body.springOffset.push_back(Eigen::Vector3d::Zero());
   }
