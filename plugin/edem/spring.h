@@ -10,10 +10,10 @@
 // Everything is differences from the body's rigid frame: displacements u, relative rotations R' (see body.h),
 // so that float keeps its digits for the strain. DEVIATION: k_rot is not in the paper; without it a lone
 // chain has no stiffness in bending. DEVIATION: the spring acts at its face's centroid, o from the middle of
-// d0, not only across it. Then forces and torques of a packing balance in any even strain (the cells' faces close), so that its
-// modulus and its tractions are those of the solid: an elastically homogeneous rigid-body-spring network
-// [BolanderSaito98]. At the middle they turn the cells, which softens the packing and overloads single
-// springs. Model::rotationalStiffness switches both off (k_rot = 0, o = 0).
+// d0, not only across it. Then forces and torques of a packing balance in any even strain (the cells' faces
+// close), so that its modulus and its tractions are those of the solid: an elastically homogeneous
+// rigid-body-spring network [BolanderSaito98]. At the middle they turn the cells, which softens the packing
+// and overloads single springs. Model::rotationalStiffness switches both off (k_rot = 0, o = 0).
 #pragma once
 
 #include "edem/types.h"
