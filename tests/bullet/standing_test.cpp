@@ -7,6 +7,13 @@
 namespace rubble::test {
 namespace {
 
+#ifdef RUBBLE_SANITIZED  // the same code in every second: until Bullet's own two of rest are over takes a
+                         // minute
+constexpr bool kWaitsForSleep = false;
+#else
+constexpr bool kWaitsForSleep = true;
+#endif
+
 double fastest(const DestructibleBody& body, std::vector<ElementPose>& last, double dt) {
   std::vector<ElementPose> now(last.size());
   body.poses(now);
@@ -25,12 +32,12 @@ TEST(Standing, AnchoredWallIsStillFromTheFirstTick) {
     DestructibleBody* wall = w.addWall(material("concrete_soft"));
     std::vector<ElementPose> last(wall->asset()->elementCount());
     wall->poses(last);
-    for (int frame = 0; frame < 150; ++frame) {
+    for (int frame = 0; frame < (kWaitsForSleep ? 150 : 15); ++frame) {
       w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
       EXPECT_LT(fastest(*wall, last, 1.0 / 60), 1e-3) << "frame " << frame;
     }
     EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
-    EXPECT_EQ(wall->isAsleep(), sleep);  // Bullet's rule is two seconds
+    EXPECT_EQ(wall->isAsleep(), sleep && kWaitsForSleep);
   }
 }
 
@@ -56,6 +63,8 @@ TEST(Standing, CubeRestsOnACrateThatSlept) {
   // The crate bears its weight.
   EXPECT_NEAR(impulse, slab->elementMass() * 9.81 * 30 / 60, 0.02 * impulse);
   EXPECT_NEAR(double(crate->getWorldTransform().getOrigin().y()), 0.25, 0.01);
+  EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+  if (!kWaitsForSleep) return;
   // It comes to rest after a drop of 5 mm: ringing is gone in a second, Bullet's own rule takes two.
   for (; frames < 300 && !slab->isAsleep(); ++frames)
     w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);

@@ -66,7 +66,12 @@ TEST_F(DustStep, IsTheSameOnGridsOfOtherSizes) {
 // Dust is only moved: what was emitted is in the air, has settled or has left. Rounding: 60 steps of a few
 // operations a cell, each 6e-8 of that cell, of either sign. Measured: 2e-7 at 8^3, 1e-8 at 32^3.
 TEST_F(DustStep, KeepsTheMassOfTheDust) {
-  for (int resolution : {8, 16, 32}) {
+#ifdef RUBBLE_SANITIZED  // the same code on every grid
+  const std::vector<int> resolutions = {8, 16};
+#else
+  const std::vector<int> resolutions = {8, 16, 32};
+#endif
+  for (const int resolution : resolutions) {
     make(grid(resolution));
     run(*m_gl, 0, 60);
     gl(Field::Density);     // waits, so that the sums of the 60 steps are there
@@ -97,11 +102,16 @@ TEST_F(DustStep, TotalsArriveAStepLateAndAreThoseOfTheCpu) {
 }
 
 TEST_F(DustStep, IsTheSameToTheLastBitOnEveryRun) {
+#ifdef RUBBLE_SANITIZED
+  constexpr int kFrames = 5;
+#else
+  constexpr int kFrames = 20;
+#endif
   make(grid());
-  run(*m_gl, 0, 20);
+  run(*m_gl, 0, kFrames);
   const std::vector<float> density = gl(Field::Density), velocity = gl(Field::Velocity);
   make(grid());
-  run(*m_gl, 0, 20);
+  run(*m_gl, 0, kFrames);
   EXPECT_EQ(density, gl(Field::Density));
   EXPECT_EQ(velocity, gl(Field::Velocity));
 }

@@ -33,10 +33,18 @@ SurfaceMesh placed(SurfaceMesh mesh, double scale, const Eigen::Vector3d& at) {
   return mesh;
 }
 
+#ifdef RUBBLE_SANITIZED  // the same code at every scale and place
+const std::vector<double> kScales = {1e-3};
+const std::vector<double> kPlaces = {1e4};
+#else
+const std::vector<double> kScales = {1e-3, 1, 1e3};
+const std::vector<double> kPlaces = {0, 1e4, 1e6};
+#endif
+
 TEST(CookedAsset, IsValidAtEveryScaleAndPlace) {
   for (const Solid& solid : solids())
-    for (const double scale : {1e-3, 1.0, 1e3})
-      for (const double away : {0.0, 1e4, 1e6})
+    for (const double scale : kScales)
+      for (const double away : kPlaces)
         for (const double least : {0.02, 0.0}) {
           CookOptions options = optionsFor(solid.elements);
           options.minFaceArea = least;
