@@ -47,7 +47,6 @@ struct DestructibleBody::Impl {
   std::string name;                      ///< for messages: "body 3 (concrete, 2 m tall)"
   std::string advice;                    ///< why it will not last; empty if nothing is known
   double speed = 0;                      ///< of its fastest element when the last tick ended [m/s]
-  double calmTime = 0;                   ///< since an element was last faster than calm [s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };
 

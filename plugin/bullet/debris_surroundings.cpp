@@ -77,7 +77,7 @@ void DebrisSurroundings::addElements(DestructibleBody& body, const Eigen::Aligne
   for (const std::uint32_t i : m_near) {
     m_places[first + i] = {std::uint32_t(m_balls.size()), true};
     m_centres.push_back(m_solver.position(id, i));
-    m_balls.push_back({&body, id, i, radius, first + i, view.asleep});
+    m_balls.push_back({&body, id, i, radius, first + i, view.asleep || view.sleeping[i]});
   }
   m_largest = std::max(m_largest, radius);
 }

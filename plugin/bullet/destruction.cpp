@@ -61,7 +61,7 @@ DestructionCounts Destruction::counts() const {
     const edem::BodyView view = m_impl->solver->view(body->id());
     c.elements += std::uint32_t(view.alive.size());
     c.crushed += view.crushed;
-    c.awake += view.asleep ? 0 : std::uint32_t(view.alive.size()) - view.crushed;
+    c.awake += view.asleep ? 0 : std::uint32_t(view.alive.size()) - view.crushed - view.sleepingCount;
     c.springs += std::uint32_t(view.intact.size());
     c.springsBroken += view.broken;
     c.fragments += view.fragments;

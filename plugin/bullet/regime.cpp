@@ -147,7 +147,7 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
   own.state = DestructibleBody::Impl::State::Thawing;
   own.struck = false;
-  own.calmTime = own.restTime = 0;
+  own.restTime = 0;
   if (own.thawLoad > 0) beginEasing(body);
   --wholes;
   own.speed = solver->maxSpeed(own.id);

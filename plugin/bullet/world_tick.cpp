@@ -25,10 +25,14 @@ namespace {
 using bullet::toBullet;
 using bullet::toEigen;
 
-// Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. A body that may
-// sleep is helped to rest: when its elements were slower than this for this long [m/s], [s], its deformation
-// is damped at this rate [1/s].
-constexpr double kCalmSpeed = 0.1, kCalmTime = 0.5, kSettleRate = 20;
+// A rigid body that Bullet holds is a rock to elements slower than this [m/s].
+constexpr double kCalmSpeed = 0.1;
+// Slow bending modes ring for many seconds, for the springs' dashpots damp the fast ones. Fragments that may
+// sleep are helped to rest once they have been slower than this for half a second; they rise 3 mm by it
+// [m/s]. The half of a wall that a ball went through rings at 0.12.
+constexpr double kSettleSpeed = 0.25;
+// As Bullet's islands, which its applications may change by gDeactivationTime [s].
+constexpr double kTimeToSleep = 2;
 // A run stops when dashpots, friction and restitution made more than this share of the energy in the world:
 // more than was put in. A blow that lasts has up to a tenth for a while (a crate of 50 kg on a slab), for
 // energy that restitution withholds while the surface still nears counts only as it parts.
@@ -39,9 +43,10 @@ constexpr double kRunaway = 0.5;
 Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition)
     : world(bulletWorld),
       def(definition),
-      solver(
-          edem::Solver::make(definition.precision, {definition.substepSafety, definition.maxSubstepsPerFrame,
-                                                    definition.breaking, definition.crushing})),
+      solver(edem::Solver::make(
+          definition.precision,
+          {definition.substepSafety, definition.maxSubstepsPerFrame, definition.breaking, definition.crushing,
+           definition.sleep ? kQuietSpeed : 0, kTimeToSleep, definition.sleep ? kSettleSpeed : 0})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
       proxyMaker(definition.log) {
   if (!limits::kMaxEvents.hold(def.maxEvents))
@@ -446,9 +451,6 @@ void Destruction::Impl::updateSleep(double dt) {
     const std::uint32_t id = body->id();
     const double speed = body->impl().speed = solver->maxSpeed(id);
     const bool quiet = def.sleep && speed < kQuietSpeed && !(body->impl().easeTime > 0);
-    double& calm = body->impl().calmTime;
-    calm = speed < kCalmSpeed ? calm + dt : 0;
-    solver->setSettling(id, def.sleep && calm > kCalmTime ? kSettleRate : 0);
     if (!quiet) {
       body->forceActivationState(DISABLE_DEACTIVATION);
       body->setDeactivationTime(0);

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 #include "cook/site_pieces.h"
 
 namespace rubble::cooking {
@@ -80,7 +80,7 @@ class Adoption {
 
   // Pieces without a home that touch are one part of the solid.
   void listEmptyParts() {
-    Groups parts(m_owner.size());
+    base::Groups parts(m_owner.size());
     for (const Contact& contact : m_contacts)
       if (contact.ofThat != kOwn) parts.join(contact.piece - 1, contact.ofThat - 1);
     std::map<std::uint32_t, std::vector<SurfacePlace>> places;

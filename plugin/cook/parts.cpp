@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 
 namespace rubble::cooking {
 
 std::size_t countParts(const CheckedMesh& mesh) {
-  Groups shells(mesh.triangles.size());
+  base::Groups shells(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t neighbour : mesh.neighbours[t]) shells.join(t, neighbour);
   std::vector<double> volumes(mesh.triangles.size(), 0);
@@ -21,7 +21,7 @@ std::size_t countParts(const CheckedMesh& mesh) {
 }
 
 std::size_t countTied(std::size_t elements, std::span<const AssetSpring> springs) {
-  Groups tied(elements);
+  base::Groups tied(elements);
   for (const AssetSpring& spring : springs) tied.join(spring.first, spring.second);
   return tied.count();
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "cook/elements.h"
-#include "cook/groups.h"
+#include "base/groups.h"
 #include "cook/hilbert.h"
 #include "cook/message.h"
 #include "cook/polyhedron.h"
@@ -74,7 +74,7 @@ Room Packer::farthestRoom(const std::vector<SurfacePlace>& places, const Element
 }
 
 bool Packer::fillEmptyParts(const RestrictedVoronoi& diagram, Elements& elements) const {
-  Groups parts(diagram.cellCount());
+  base::Groups parts(diagram.cellCount());
   for (const AssetSpring& tie : findSprings(diagram, findSitePieces(diagram), 0))
     parts.join(tie.first, tie.second);
   std::vector<std::size_t> left(diagram.cellCount(), 0);

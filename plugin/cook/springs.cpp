@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 
 namespace rubble::cooking {
 namespace {
@@ -38,7 +38,7 @@ std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const Sit
     if (!cap.isFlat) area = bent.norm();
     if (area > 0) all.push_back({cap.first, cap.second, area});
   }
-  Groups tied(diagram.cellCount());
+  base::Groups tied(diagram.cellCount());
   for (const AssetSpring& spring : all)
     if (spring.area >= leastArea) tied.join(spring.first, spring.second);
   std::vector<AssetSpring> springs;

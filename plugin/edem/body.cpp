@@ -262,6 +262,9 @@ void makeState(Body<Real>& body, const BodyDef& def) {
   for (std::size_t i = 0; i < n; ++i)
     body.velocity[i] = (def.velocity + def.spin.cross(body.turn * body.restCentred[i])).template cast<Real>();
   body.alive.assign(n, 1);
+  body.sleeping.assign(n, 0);
+  body.calmTime.assign(n, 0);
+  body.slowTime.assign(n, 0);
   body.load.assign(n, Real(0));
   body.touchesBegun.assign(n, 0);
   body.anchored.assign(n, 0);

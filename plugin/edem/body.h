@@ -77,8 +77,7 @@ struct Body {
   std::shared_ptr<const Asset> asset;
   Material material;
   Model model;
-  double massDamping = 0;    ///< of the deformation velocity [1/s]
-  double settleDamping = 0;  ///< the same, while the host lets the body come to rest [1/s]
+  double massDamping = 0;  ///< of the deformation velocity [1/s]
   /// The same in every substep, until another spring breaks: while the host lets it bend to a load [1/s].
   double easeDamping = 0;
   std::uint32_t easeBroken = 0;  ///< brokenCount when that began
@@ -134,8 +133,13 @@ struct Body {
   std::uint32_t brokenCount = 0;
   std::uint32_t labelledBroken = 0;  ///< brokenCount when the fragments were labelled
   std::uint32_t anchorsIntact = 0;
-  bool asleep = false;
-  bool parked = false;  ///< lent to the host, asleep too (parking.h)
+  std::vector<std::uint8_t> sleeping;  ///< elements of fragments that sleep by themselves, see sleep.h
+  /// How long each element has been slower than SolverDef::sleepSpeed, and than settleSpeed [s].
+  std::vector<float> calmTime, slowTime;
+  std::uint32_t sleepingCount = 0;
+  double energyAsleep = 0;  ///< in the springs of those [J]
+  bool asleep = false;      ///< all of it, by its host
+  bool parked = false;      ///< lent to the host, asleep too (parking.h)
   /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
   std::vector<Vec3<Real>> parkedAt;
   std::vector<Quat<Real>> parkedTurn;

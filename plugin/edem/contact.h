@@ -48,7 +48,8 @@ struct ContactMemory {
   /// Distance at which the two touch, where that is not the sum of their radii: they were first seen deeper
   /// in each other. Grows with their distance; 0 while they are out of reach [m].
   Real range = 0;
-  Real onset = 1;  ///< share of the step before, in the first that they touch: of it they touched in
+  Real energy = 0;  ///< in its springs at the last instant [J]
+  Real onset = 1;   ///< share of the step before, in the first that they touch: of it they touched in
 };
 
 /// Forgets what slid and rolled.

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <vector>
 
 #include "edem/rigid_motion.h"
 
@@ -18,44 +19,76 @@ double kineticOf(const Body<Real>& body, std::size_t i) {
 
 template <class Real>
 void dampDeformation(Body<Real>& body, double rate, double dt, Books& books) {
-  assert(rate >= 0 && dt >= 0);
-  const double lost = -std::expm1(-rate * dt);
+  const std::vector<double> rates(body.elementCount(), rate);
+  dampDeformation(body, std::span<const double>(rates), dt, books);
+}
+
+template <class Real>
+void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt, Books& books) {
+  assert(rates.size() == body.elementCount() && dt >= 0);
   const auto motions = rigidMotions(body);
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+  std::vector<std::uint8_t> held(body.elementCount(), 0);
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i] && body.anchored[i]) held[body.fragment[i]] = 1;
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
     if (!body.alive[i]) continue;
+    const double rate = rates[body.fragment[i]];
+    assert(rate >= 0);
+    if (!(rate > 0)) continue;
+    const double lost = -std::expm1(-rate * dt);
+    const bool isHeld = held[body.fragment[i]] != 0;
     const RigidMotion& m = motions.at(body.fragment[i]);
+    const Eigen::Vector3d x = body.worldPosition(i);
+    const Eigen::Vector3d v = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.at(x);
+    const Eigen::Vector3d w = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.spin;
     const double before = kineticOf(body, i);
-    const Eigen::Vector3d v = m.velocity + m.spin.cross(body.worldPosition(i) - m.centre);
-    body.velocity[i] += (lost * (v - body.velocity[i].template cast<double>())).template cast<Real>();
-    body.spin[i] += (lost * (m.spin - body.spin[i].template cast<double>())).template cast<Real>();
+    const Vec3<Real> velocity = body.velocity[i], spin = body.spin[i];
+    body.velocity[i] += (lost * (v - velocity.template cast<double>())).template cast<Real>();
+    body.spin[i] += (lost * (w - spin.template cast<double>())).template cast<Real>();
     const double taken = before - kineticOf(body, i);
     books.massDamped += taken;
     books.kinetic -= taken;
+    if (!isHeld) continue;  // the others of the fragment have it
+    const Eigen::Vector3d push = body.mass[i] * (body.velocity[i] - velocity).template cast<double>();
+    const Eigen::Vector3d turn = body.inertia[i] * (body.spin[i] - spin).template cast<double>();
+    books.anchors.push(1, push, x - books.centre, turn);
+    books.linear += push;
+    books.angular += (x - books.centre).cross(push) + turn;
   }
 }
 
 template <class Real>
+void brake(Body<Real>& body, std::uint32_t i, double share, Books& books) {
+  assert(share >= 0 && share <= 1);
+  const double before = kineticOf(body, i);
+  const Vec3<Real> velocity = body.velocity[i], spin = body.spin[i];
+  body.velocity[i] *= Real(1 - share);
+  body.velocityCarry[i] *= Real(1 - share);
+  body.spin[i] *= Real(1 - share);
+  const double taken = before - kineticOf(body, i);
+  const Eigen::Vector3d momentum = body.mass[i] * (velocity - body.velocity[i]).template cast<double>();
+  const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(momentum) +
+                                  body.inertia[i] * (spin - body.spin[i]).template cast<double>();
+  books.slept += taken;
+  books.sleptLinear += momentum;
+  books.sleptAngular += angular;
+  books.kinetic -= taken;
+  books.linear -= momentum;
+  books.angular -= angular;
+}
+
+template <class Real>
 void bookSlept(Body<Real>& body, Books& books) {
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    const double taken = kineticOf(body, i);
-    const Eigen::Vector3d momentum = body.mass[i] * body.velocity[i].template cast<double>();
-    const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(momentum) +
-                                    body.inertia[i] * body.spin[i].template cast<double>();
-    books.slept += taken;
-    books.sleptLinear += momentum;
-    books.sleptAngular += angular;
-    books.kinetic -= taken;
-    books.linear -= momentum;
-    books.angular -= angular;
-    body.velocity[i].setZero();
-    body.velocityCarry[i].setZero();
-    body.spin[i].setZero();
-  }
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i]) brake(body, i, 1, books);
 }
 
 template void dampDeformation(Body<float>&, double, double, Books&);
 template void dampDeformation(Body<double>&, double, double, Books&);
+template void dampDeformation(Body<float>&, std::span<const double>, double, Books&);
+template void dampDeformation(Body<double>&, std::span<const double>, double, Books&);
+template void brake(Body<float>&, std::uint32_t, double, Books&);
+template void brake(Body<double>&, std::uint32_t, double, Books&);
 template void bookSlept(Body<float>&, Books&);
 template void bookSlept(Body<double>&, Books&);
 

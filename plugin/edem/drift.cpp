@@ -25,7 +25,7 @@ Thing thingOf(const Body<Real>& body) {
   Thing thing;
   if (body.parked) return thing;  // the host has a rigid body for it
   thing.box = boundsOf(body);
-  thing.moves = !body.asleep && body.anchorsIntact == 0;
+  thing.moves = !body.asleep && body.sleepingCount == 0 && body.anchorsIntact == 0;
   if (!thing.moves) return thing;
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {

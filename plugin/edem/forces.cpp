@@ -57,9 +57,9 @@ template <class Real>
 double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books) {
   assert(std::isfinite(kick) && kick >= 0);
   assert(body.intact.size() == body.springs.size() && body.force.size() == body.elementCount());
-  double elastic = 0;
+  double elastic = body.energyAsleep;
   for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
+    if (!body.intact[s] || body.sleeping[body.springs[s].first]) continue;
     const Spring<Real>& spring = body.springs[s];
     assert(spring.first < body.elementCount() && spring.second < body.elementCount());
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));

@@ -27,11 +27,11 @@ struct Fit {
   }
 };
 
-// Visits the elements whose frame moves.
+// Visits the elements whose frame moves: those of fragments that sleep would only be rounded.
 template <class Real, class Visit>
 void visitMoving(const Body<Real>& body, Visit&& visit) {
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i] && body.frameOf[i] > 0) visit(i, body.frameOf[i]);
+    if (body.alive[i] && body.frameOf[i] > 0 && !body.sleeping[i]) visit(i, body.frameOf[i]);
 }
 
 template <class Real>

@@ -140,6 +140,10 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
     ContactMemory<Real>& memory = list.memory[k];
+    if (a.sleeping[entry.first] || b.sleeping[entry.second]) {  // both, or they do not touch
+      list.elastic += entry.touching ? double(memory.energy) : 0;
+      continue;
+    }
     const PairTouch<Real> touch = touchPair(list, k, offset, a, b, steps, resting, memory);
     if (!touch.touches) {
       if (entry.touching) {
@@ -153,7 +157,8 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
       ++a.touchesBegun[entry.first];
       ++b.touchesBegun[entry.second];
     }
-    list.elastic += double(touch.load.energy);
+    memory.energy = touch.load.energy;
+    list.elastic += double(memory.energy);
     slipped += double(touch.load.slipped);
     addTouch(touch, a, entry.first, b, entry.second, Real(1));
     const Eigen::Vector3d force = (touch.load.elastic + touch.load.damping).template cast<double>();

@@ -24,7 +24,6 @@ struct RigidContact {
   std::uint32_t proxy, body, element;  ///< places
   bool touching = false;
   ContactMemory<double> memory;
-  double energy = 0;  ///< at the last instant [J]
   FaceMemory faces;
   double weight = 0;         ///< sum of all that may press at once, over k_n
   double mode = 0;           ///< its highest frequency^2, over k_n / m
@@ -62,6 +61,7 @@ struct RigidState {
   std::uint64_t key = 0;
   RigidPose left;      ///< when the last substep was over
   bool moved = false;  ///< by the host since
+  bool still = false;  ///< does not move, and has not since the last tick
   /// On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();

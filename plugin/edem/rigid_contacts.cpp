@@ -38,6 +38,9 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
     if (before != m_before.end()) {
       state.left = before->left;
       state.moved = true;
+      state.still = !proxy.isDynamic() && proxy.velocity.isZero(0) && proxy.spin.isZero(0) &&
+                    proxy.position == before->left.position &&
+                    proxy.orientation.coeffs() == before->left.orientation.coeffs();
       state.pressed = before->size;
       state.surplusNext = before->surplusNext;
       state.corners = std::move(before->corners);
@@ -54,35 +57,33 @@ template <class Real>
 void RigidContacts<Real>::keepContacts() {
   for (const RigidContact& c : m_contacts)
     if (c.touching || c.memory.range > 0 || c.faces.deepest > 0)
-      m_kept.push_back(
-          {m_states[c.proxy].key, m_ids[c.body], c.element, c.memory, c.energy, c.faces, c.touching});
+      m_kept.push_back({m_states[c.proxy].key, m_ids[c.body], c.element, c.memory, c.faces, c.touching});
   m_contacts.clear();
 }
 
 template <class Real>
 void RigidContacts<Real>::remember(RigidContact& candidate) {
-  const Kept wanted{
-      m_states[candidate.proxy].key, m_ids[candidate.body], candidate.element, {}, 0, {}, false};
+  const Kept wanted{m_states[candidate.proxy].key, m_ids[candidate.body], candidate.element, {}, {}, false};
   const auto found = std::lower_bound(m_kept.begin(), m_kept.end(), wanted,
                                       [](const Kept& a, const Kept& b) { return a.name() < b.name(); });
   if (found == m_kept.end() || found->name() != wanted.name()) return;
   candidate.touching = found->touching;
   candidate.memory = found->memory;
-  candidate.energy = found->energy;
   candidate.faces = found->faces;
   found->taken = true;
 }
 
-// What did not come back into the lists has ended, unless its body sleeps.
+// What did not come back into the lists has ended, unless its body or element sleeps.
 template <class Real>
 void RigidContacts<Real>::endContacts(Bodies bodies) {
-  const auto asleep = [&](std::uint32_t id) {
-    return std::any_of(bodies.begin(), bodies.end(),
-                       [id](const auto& b) { return b->id == id && b->asleep; });
+  const auto asleep = [&](const Kept& k) {
+    return std::any_of(bodies.begin(), bodies.end(), [&k](const auto& b) {
+      return b->id == k.body && (b->asleep || b->sleeping[k.element]);
+    });
   };
   std::erase_if(m_kept, [&](const Kept& k) {
-    if (!k.taken && asleep(k.body)) return false;
-    if (!k.taken) m_lost += k.energy;
+    if (!k.taken && asleep(k)) return false;
+    if (!k.taken) m_lost += k.memory.energy;
     return true;
   });
 }
@@ -92,12 +93,12 @@ double RigidContacts<Real>::endContactsOf(std::uint32_t id) {
   double energy = 0;
   std::erase_if(m_contacts, [&](const RigidContact& c) {
     if (m_ids[c.body] != id) return false;
-    energy += c.energy;
+    energy += c.memory.energy;
     return true;
   });
   std::erase_if(m_kept, [&](const Kept& k) {
     if (k.body != id) return false;
-    energy += k.energy;
+    energy += k.memory.energy;
     return true;
   });
   m_elastic -= energy;
@@ -123,15 +124,21 @@ void RigidContacts<Real>::build(Bodies bodies, const PairLists<Real>& lists) {
   weigh(bodies);
 }
 
+// From the listing on, an element may move a whole skin (from one side of its listed place to the other) and
+// the proxy half.
 template <class Real>
-void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
-                                   const PairLists<Real>& lists) {
+double RigidContacts<Real>::away(const PairLists<Real>& lists) {
+  return 1.5 * lists.skin();
+}
+
+template <class Real>
+template <class Visit>
+void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
+                                    const PairLists<Real>& lists, Visit&& visit) const {
   const RigidProxy& proxy = m_proxies[p];
   if (std::find(proxy.spared.begin(), proxy.spared.end(), body.id) != proxy.spared.end()) return;
   const ElementGrid& own = lists.grid(place);
-  // From now on the element may move a whole skin (from one side of its listed place to the other) and the
-  // proxy half.
-  const double away = 1.5 * lists.skin(), reach = body.reach() + away;
+  const double reach = body.reach() + away(lists);
   const auto grown = [](const Eigen::AlignedBox3d& box, double by) {
     return Eigen::AlignedBox3d(box.min().array() - by, box.max().array() + by);
   };
@@ -140,24 +147,12 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
   // Grown again, for the box of a single element or of a flat layer has no volume for rounding to miss.
   box = grown(box.intersection(own.bounds), 0.25 * lists.skin());
 
-  const std::size_t begin = m_contacts.size();
   const auto consider = [&](std::uint32_t i) {
     if (!body.alive[i]) return;
     if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
     const Eigen::Vector3d x = body.origin + body.position[i];
     const double distance = nearest(proxy, x).distance;
-    if (distance >= (body.cells ? body.cells->reach[i] + away : reach)) return;
-    RigidContact candidate;
-    candidate.proxy = p;
-    candidate.body = place;
-    candidate.element = i;
-    if (body.cells) {
-      const Eigen::Vector3d at = proxy.orientation.conjugate() * (x - proxy.position);
-      candidate.balls = ballWeights(proxy, at, body.cells->reach[i] + away);
-      candidate.core = distance < body.cells->core[i] + away;
-    }
-    remember(candidate);
-    m_contacts.push_back(candidate);
+    if (distance < (body.cells ? body.cells->reach[i] + away(lists) : reach)) visit(i, x, distance);
   };
   const Vec3<double> low = box.min() - body.origin, high = box.max() - body.origin;
   if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
@@ -165,8 +160,56 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
   } else {
     own.grid.visitBox(low, high, consider);
   }
+}
+
+template <class Real>
+void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
+                                   const PairLists<Real>& lists) {
+  const RigidProxy& proxy = m_proxies[p];
+  const std::size_t begin = m_contacts.size();
+  visitNear(p, place, body, lists, [&](std::uint32_t i, const Eigen::Vector3d& x, double distance) {
+    if (body.sleeping[i]) return;
+    RigidContact candidate;
+    candidate.proxy = p;
+    candidate.body = place;
+    candidate.element = i;
+    if (body.cells) {
+      const Eigen::Vector3d at = proxy.orientation.conjugate() * (x - proxy.position);
+      candidate.balls = ballWeights(proxy, at, body.cells->reach[i] + away(lists));
+      candidate.core = distance < body.cells->core[i] + away(lists);
+    }
+    remember(candidate);
+    m_contacts.push_back(candidate);
+  });
   std::sort(m_contacts.begin() + std::ptrdiff_t(begin), m_contacts.end(),
             [](const RigidContact& a, const RigidContact& b) { return a.element < b.element; });
+}
+
+template <class Real>
+void RigidContacts<Real>::visitDisturbed(Bodies bodies, const PairLists<Real>& lists,
+                                         const VisitElement& visit) const {
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    const Body<Real>& body = *bodies[b];
+    if (body.sleepingCount == 0 || body.asleep) continue;
+    const auto visitSleeping = [&](std::uint32_t i) {
+      if (body.sleeping[i]) visit(b, i);
+    };
+    for (std::uint32_t p = 0; p < m_proxies.size(); ++p)
+      if (!m_states[p].still)
+        visitNear(p, b, body, lists,
+                  [&](std::uint32_t i, const Eigen::Vector3d&, double) { visitSleeping(i); });
+    for (const Kept& k : m_kept) {
+      const auto isThere = [&k](const RigidState& s) { return s.key == k.key; };
+      if (k.body == body.id && std::none_of(m_states.begin(), m_states.end(), isThere))
+        visitSleeping(k.element);
+    }
+  }
+}
+
+template <class Real>
+void RigidContacts<Real>::visitAtMoving(const VisitElement& visit) const {
+  for (const RigidContact& c : m_contacts)
+    if (c.touching && !m_states[c.proxy].still) visit(c.body, c.element);
 }
 
 template <class Real>
@@ -320,7 +363,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
   findAllCorners(bodies);
   m_moved = steps.moved;
   m_elastic = 0;
-  for (const Kept& k : m_kept) m_elastic += k.energy;
+  for (const Kept& k : m_kept) m_elastic += k.memory.energy;
   for (std::size_t p = 0; p < m_proxies.size(); ++p)
     m_proxies[p].surplus += std::exchange(m_states[p].surplusNext, 0);
   double slipped = std::exchange(m_lost, 0);
@@ -333,7 +376,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     const bool touched = c.touching;
     c.touching = m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, resting, books, t)
                                          : touch(c, body, m_corners, steps, resting, t);
-    c.energy = t.energy;
+    c.memory.energy = t.energy;
     slipped += t.slipped;
     if (!c.touching) {
       if (touched) part(c.memory);
@@ -364,7 +407,6 @@ void RigidContacts<Real>::release(Bodies bodies, double kick, Books& books) {
     c.touching = false;
     c.memory = {};
     c.faces = {};
-    c.energy = 0;
   }
 }
 
@@ -382,7 +424,7 @@ void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Restin
     }
     RigidTouch now;
     c.touching = touch(c, body, m_corners, {0, step}, resting, now);
-    c.energy = now.energy;
+    c.memory.energy = now.energy;
     if (c.touching)
       add(now, c, body);
     else

@@ -2,6 +2,7 @@
 // that a fast one is swept through the substeps and does not tunnel.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <tuple>
@@ -65,6 +66,13 @@ class RigidContacts {
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 
+  using VisitElement = std::function<void(std::uint32_t body, std::uint32_t element)>;
+  /// Visits the places of sleeping elements that a proxy which is not still has come near to since the lists
+  /// of pairs were built, or that touched one which is no longer there.
+  void visitDisturbed(Bodies bodies, const PairLists<Real>& lists, const VisitElement& visit) const;
+  /// Visits those of elements that touch a proxy which is not still.
+  void visitAtMoving(const VisitElement& visit) const;
+
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
   std::span<const RigidProxy> proxies() const { return m_proxies; }
@@ -75,7 +83,6 @@ class RigidContacts {
     std::uint64_t key;
     std::uint32_t body, element;  // id of the body
     ContactMemory<double> memory;
-    double energy;
     FaceMemory faces;
     bool touching;
     bool taken = false;
@@ -91,6 +98,12 @@ class RigidContacts {
   void keepContacts();
   double pushPower(const Push& push, const Body<Real>& body) const;
   void endContacts(Bodies bodies);
+  static double away(const PairLists<Real>& lists);
+  /// visit(element, its centre [m], its distance from the proxy's surface [m]) for those near enough to be
+  /// listed.
+  template <class Visit>
+  void visitNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
+                 const PairLists<Real>& lists, Visit&& visit) const;
   void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
                 const PairLists<Real>& lists);
   void remember(RigidContact& contact);

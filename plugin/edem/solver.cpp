@@ -11,6 +11,7 @@
 #include "edem/damping.h"
 #include "edem/parking.h"
 #include "edem/prestress.h"
+#include "edem/sleep.h"
 #include "edem/step_length.h"
 #include "edem/tick.h"
 #include "edem/world.h"
@@ -42,6 +43,7 @@ class SolverOf final : public Solver {
 
   void removeBody(std::uint32_t id) override {
     const std::size_t place = placeOf(id);
+    wakeNeighbours(m_world, std::uint32_t(place));
     double contacts = 0;
     for (const PairList<Real>& l : m_world.lists.lists())
       if (l.first == place || l.second == place) contacts += l.elastic;
@@ -72,8 +74,8 @@ class SolverOf final : public Solver {
 
   BodyView view(std::uint32_t id) const override {
     const Body<Real>& b = of(id);
-    return {b.alive,         b.intact,       b.fragment,    b.mass,  b.inertia,
-            b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep};
+    return {b.alive,         b.intact,       b.fragment,    b.mass,   b.inertia,      b.sleeping,
+            b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep, b.sleepingCount};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {
@@ -96,12 +98,9 @@ class SolverOf final : public Solver {
 
   void push(std::uint32_t id, std::size_t i, const Eigen::Vector3d& linear,
             const Eigen::Vector3d& angular) override {
-    pushElement(*m_world.bodies[placeOf(id)], i, linear, angular, m_world.books);
-  }
-
-  void setSettling(std::uint32_t id, double rate) override {
-    assert(rate >= 0);
-    m_world.bodies[placeOf(id)]->settleDamping = rate;
+    const std::size_t place = placeOf(id);
+    wakeElement(m_world, std::uint32_t(place), std::uint32_t(i));
+    pushElement(*m_world.bodies[place], i, linear, angular, m_world.books);
   }
 
   void setEasing(std::uint32_t id, double rate) override {
@@ -116,7 +115,8 @@ class SolverOf final : public Solver {
     if (body.asleep == asleep) return;
     body.asleep = asleep;
     m_world.listsStale = true;
-    if (!asleep) return;
+    // What its fragments lay on may have gone while nobody looked.
+    if (!asleep) return edem::forgetSleep(body);
     body.sleepingElastic = elasticOf(body);
     bookSlept(body, m_world.books);
   }
@@ -124,6 +124,7 @@ class SolverOf final : public Solver {
   std::optional<ParkedMotion> park(std::uint32_t id) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
     if (!mayPark(body)) return std::nullopt;
+    forgetSleep(body);
     const double contacts = m_world.lists.endContactsOf(id) + m_world.rigid.endContactsOf(id);
     m_world.books.elastic -= contacts;
     m_world.books.massDamped += contacts;

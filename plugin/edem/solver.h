@@ -25,9 +25,11 @@ struct BodyView {
   std::span<const std::uint8_t> intact;  ///< springs, then anchors
   std::span<const std::uint32_t> fragment;
   std::span<const double> mass;
-  std::span<const double> inertia;  ///< scalar moments [kg m^2]
+  std::span<const double> inertia;         ///< scalar moments [kg m^2]
+  std::span<const std::uint8_t> sleeping;  ///< elements that lie still, while the body does not sleep
   std::uint32_t fragments = 0, crushed = 0, broken = 0;
   bool asleep = false;
+  std::uint32_t sleepingCount = 0;
 };
 
 class Solver {
@@ -76,8 +78,6 @@ class Solver {
   /// [N s], [N m s]. Booked as the host's.
   virtual void push(std::uint32_t id, std::size_t element, const Eigen::Vector3d& linear,
                     const Eigen::Vector3d& angular) = 0;
-  /// Lets a body come to rest: damps its fragments' deformation at least at this rate [1/s]; 0: no more.
-  virtual void setSettling(std::uint32_t id, double rate) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
   /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;

@@ -8,6 +8,15 @@ struct SolverDef {
   int maxSubstepsPerFrame = 20000;  ///< in 1/60 s; a body that needs more is refused
   bool breaking = true;
   bool crushing = true;
+  /// Fragments slower than this, surfaces included, fall asleep one by one, each with what it touches; 0:
+  /// none does [m/s].
+  double sleepSpeed = 0;
+  double sleepTime = 2;  ///< after so long [s]
+  /// Fragments slower than this for so long, which something bears or they would fall, come to rest: what
+  /// they deform by is damped at least at that rate; 0: none do [m/s], [s], [1/s].
+  double settleSpeed = 0, settleTime = 0.5, settleRate = 20;
+  /// And their motion as a whole at this one: a wall that lost its anchors else rocks for a minute [1/s].
+  double brakeRate = 2;
 };
 
 }  // namespace rubble::edem

@@ -33,7 +33,11 @@ void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bo
   m_springs.resize(bodies.size());
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     m_springs[b].assign(bodies[b]->elementCount(), {});
-    if (!bodies[b]->asleep) springRates(*bodies[b], std::span(m_springs[b]));
+    const Body<Real>& body = *bodies[b];
+    if (body.asleep) continue;
+    springRates(body, std::span(m_springs[b]));
+    for (std::size_t i = 0; body.sleepingCount > 0 && i < body.elementCount(); ++i)
+      if (body.sleeping[i]) m_springs[b][i] = {};
   }
 }
 
@@ -74,6 +78,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
     const ContactLaw<double> law = l.law.template cast<double>();
     for (const PairEntry& e : l.entries) {
+      if (a.sleeping[e.first] && b.sleeping[e.second]) continue;
       m_contact2 = std::max(m_contact2, law.stiffness * (1 / a.mass[e.first] + 1 / b.mass[e.second]));
       if (!a.asleep) addContact(l.first, e.first, ratesOf(law, a, e.first), e.touching);
       if (!b.asleep) addContact(l.second, e.second, ratesOf(law, b, e.second), e.touching);
@@ -94,15 +99,19 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     if (body.asleep) continue;
     const std::vector<ElementRates>& rates = m_rates[b];
     for (std::size_t s = 0; s < body.springs.size(); ++s) {
-      if (!body.intact[s]) continue;
       const Spring<Real>& spring = body.springs[s];
+      if (!body.intact[s] || body.sleeping[spring.first]) continue;
       add(b, rates[spring.first], body.isAnchor(s) ? ElementRates{} : rates[spring.second]);
     }
     for (std::size_t i = 0; i < rates.size(); ++i)
-      if (body.alive[i]) add(b, rates[i], {});
+      if (body.alive[i] && !body.sleeping[i]) add(b, rates[i], {});
   }
-  for (const PairList<Real>& l : lists.lists())
-    for (const PairEntry& e : l.entries) add(l.first, m_rates[l.first][e.first], m_rates[l.second][e.second]);
+  for (const PairList<Real>& l : lists.lists()) {
+    const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
+    for (const PairEntry& e : l.entries)
+      if (!a.sleeping[e.first] || !b.sleeping[e.second])
+        add(l.first, m_rates[l.first][e.first], m_rates[l.second][e.second]);
+  }
   // What moves at a rigid body moves it too: light ones are made softer where they would need a step much
   // shorter than the elements'.
   rigid.soften(m_bound.frequency2);

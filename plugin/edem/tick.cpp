@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
 #include "edem/frames.h"
+#include "edem/sleep.h"
 
 namespace rubble::edem {
 namespace {
@@ -26,6 +28,7 @@ void list(World<Real>& w, double left) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& body : w.bodies) radius = std::min(radius, double(body->radius));
   w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * radius);
+  wakeDisturbed(w);
   w.rigid.build(w.bodies, w.lists);
   findDrifts(std::span<const std::unique_ptr<Body<Real>>>(w.bodies), w.rigid.proxies(), w.lists.skin(), left,
              w.drifts);
@@ -161,17 +164,16 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
 template <class Real>
 void closeTick(World<Real>& w, double dt) {
   for (auto& body : w.bodies) {
-    if (body->asleep) continue;
     const bool broke = std::any_of(w.report.broken.begin(), w.report.broken.end(),
                                    [&](const BrokenSpring& s) { return s.body == body->id; });
-    if (broke) {
-      labelFragments(*body);
-      splitFrames(*body);
-    }
-    const double damping = std::max(body->massDamping, body->settleDamping);
-    if (damping > 0) dampDeformation(*body, damping, dt, w.books);
-    fitFrames(*body);
+    if (body->asleep || !broke) continue;
+    labelFragments(*body);
+    splitFrames(*body);
   }
+  settle(w, dt);
+  for (auto& body : w.bodies)
+    if (!body->asleep) fitFrames(*body);
+  putToSleep(w, dt);
 }
 
 }  // namespace
@@ -190,6 +192,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.rigid.beginTick(proxies);
   w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
+  if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
   for (auto& body : w.bodies)
     if (!body->asleep || body->motions.empty()) beginMotions(*body);
   w.listsStale = true;
@@ -198,7 +201,11 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   while (left > 0 && w.failure.empty()) {
     for (auto& body : w.bodies)
       if (!body->asleep) beginSubstep(*body);
-    const bool listed = refreshLists(w, left);
+    bool listed = refreshLists(w, left);
+    if (wakeTouched(w)) {
+      list(w, left);
+      listed = true;
+    }
     if (listed) refreshFragments(w);
     if (listed || contactsBegan(w)) {
       // What is near has changed: the rest of the tick in equal steps that are short enough for it.

@@ -66,7 +66,7 @@ struct DestructibleBodyDef {
 struct DestructionCounts {
   std::uint32_t elements = 0;       ///< of all bodies as they were added: intact + crushed
   std::uint32_t crushed = 0;        ///< of them, gone to debris and dust
-  std::uint32_t awake = 0;          ///< intact elements of bodies that are not asleep
+  std::uint32_t awake = 0;          ///< intact elements that do not sleep
   std::uint32_t springs = 0;        ///< of all bodies as they were added, anchors too: intact + broken
   std::uint32_t springsBroken = 0;  ///< of them, those of crushed elements too
   std::uint32_t fragments = 0;      ///< sets of intact elements joined by intact springs, single ones too

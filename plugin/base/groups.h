@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace rubble::cooking {
+namespace rubble::base {
 
 class Groups {
  public:
@@ -27,4 +27,4 @@ class Groups {
   std::vector<std::uint32_t> m_parent;
 };
 
-}  // namespace rubble::cooking
+}  // namespace rubble::base

@@ -1,0 +1,167 @@
+// Fragments that lie still sleep one by one.
+#include "physics/bodies.h"
+
+namespace rubble::test {
+namespace {
+
+constexpr double kEdge = 0.1;  // of an element [m]
+
+// Loose cubes of one element each, `at` the places of the grid that are kept, on the plane y = 0.
+edem::BodyDef looseCubes(int along, int up = 1) {
+  GridAssetDef grid;
+  grid.cubes = {along, up, 1};
+  grid.edge = kEdge;
+  grid.anchored = false;
+  Asset asset = gridAsset(grid);
+  asset.springs.clear();
+  edem::BodyDef def;
+  def.asset = std::make_shared<const Asset>(std::move(asset));
+  def.anchored = false;
+  def.material.friction = 0.6;
+  return def;
+}
+
+edem::RigidProxy ground() {
+  edem::RigidProxy proxy;
+  edem::Collider plane;
+  plane.kind = edem::Collider::Kind::Plane;
+  plane.size = Eigen::Vector3d::UnitY();
+  proxy.parts = {plane};
+  proxy.key = 7;
+  return proxy;
+}
+
+template <class Real>
+class Sleep : public ::testing::Test {
+ protected:
+  Sleep() {
+    edem::SolverDef def;
+    def.breaking = def.crushing = false;
+    def.sleepSpeed = 0.01;
+    def.sleepTime = 0.2;
+    solver = edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, def);
+  }
+  void tick(int count) {
+    for (int t = 0; t < count; ++t) solver->tick(kFrame, kGravity, proxies);
+  }
+  bool sleeps(std::size_t element) const { return solver->view(0).sleeping[element] != 0; }
+  void push(std::size_t element, const Eigen::Vector3d& velocity) {
+    put += 0.5 * solver->view(0).mass[element] * velocity.squaredNorm();
+    solver->push(0, element, solver->view(0).mass[element] * velocity, Eigen::Vector3d::Zero());
+  }
+  // Of all that was put in [1].
+  double energyError() const {
+    const edem::Books& b = solver->books();
+    const double now = b.kinetic + b.elastic - b.dissipated.done() + b.fracture + b.massDamped + b.slept;
+    const double had = b.initialEnergy + b.gravity.work.done() + b.bullet.work.done();
+    return std::abs(now - had) / put;
+  }
+
+  std::unique_ptr<edem::Solver> solver;
+  std::vector<edem::RigidProxy> proxies = {ground()};
+  double put = 0;  // energy [J]
+};
+TYPED_TEST_SUITE(Sleep, Scalars);
+
+TYPED_TEST(Sleep, WhatLiesStillSleepsBesideWhatMoves) {
+  this->solver->addBody(looseCubes(4), kNoGravity);
+  this->tick(60);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(this->sleeps(i)) << i;
+  const Eigen::Vector3d at = this->solver->position(0, 0);
+  this->push(3, {2, 0, 0});
+  EXPECT_FALSE(this->sleeps(3));
+  this->tick(5);
+  // Cubes touch at rest, so the island of all four woke; those that nobody pushed sleep again.
+  EXPECT_GT(this->solver->velocity(0, 3).x(), 0.1);
+  this->tick(60);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(this->sleeps(i)) << i;
+  EXPECT_LT((this->solver->position(0, 0) - at).norm(), 1e-3 * kEdge);
+  EXPECT_LT(this->energyError(), 1e-3);
+}
+
+TYPED_TEST(Sleep, ItWakesByWhatRunsIntoIt) {
+  this->solver->addBody(looseCubes(6), kNoGravity);
+  // Apart from one another by a cube, but for the last two.
+  this->tick(1);
+  this->push(0, {-3, 0, 0});
+  this->tick(90);
+  ASSERT_TRUE(this->sleeps(0) && this->sleeps(1));
+  const double before = this->solver->position(0, 1).x();
+  const double gap = before - this->solver->position(0, 0).x();
+  ASSERT_GT(gap, 2 * kEdge);
+  this->push(0, {4, 0, 0});
+  EXPECT_TRUE(this->sleeps(1)) << "nothing touches it yet";
+  this->tick(40);
+  EXPECT_GT(this->solver->position(0, 1).x(), before + 0.1 * kEdge);
+  EXPECT_LT(this->energyError(), 1e-3);
+  // Both momenta, friction on the ground included.
+  const edem::Books& b = this->solver->books();
+  const Eigen::Vector3d linear =
+      b.linear + b.sleptLinear - b.initialLinear - b.gravity.linear - b.bullet.linear - b.anchors.linear;
+  EXPECT_LT(linear.norm(), 1e-4 * (b.gravity.size + b.bullet.size));
+}
+
+TYPED_TEST(Sleep, WhatLaysOnItFallsAndSoDoesItWhenItsGroundLeaves) {
+  this->solver->addBody(looseCubes(1, 2), kNoGravity);
+  this->tick(60);
+  ASSERT_TRUE(this->sleeps(0) && this->sleeps(1));
+  const double lower = this->solver->position(0, 0).y(), upper = this->solver->position(0, 1).y();
+  this->proxies.clear();
+  this->tick(30);  // 0.5 s of fall: 1.2 m
+  EXPECT_LT(this->solver->position(0, 0).y(), lower - 1);
+  EXPECT_LT(this->solver->position(0, 1).y(), upper - 1);
+}
+
+TYPED_TEST(Sleep, GroundThatMovesWakesIt) {
+  this->solver->addBody(looseCubes(2), kNoGravity);
+  this->tick(60);
+  ASSERT_TRUE(this->sleeps(0));
+  const double before = this->solver->position(0, 0).y();
+  this->proxies[0].kinematic = true;
+  this->proxies[0].velocity = {0, 0.5, 0};
+  this->tick(12);
+  EXPECT_FALSE(this->sleeps(0));
+  EXPECT_NEAR(this->solver->position(0, 0).y(), before + 0.5 * 12 * kFrame, 0.02 * kEdge);
+}
+
+TYPED_TEST(Sleep, ABallThatComesWakesItBeforeItTouches) {
+  this->solver->addBody(looseCubes(2), kNoGravity);
+  this->tick(60);
+  ASSERT_TRUE(this->sleeps(1));
+  const Eigen::Vector3d at = this->solver->position(0, 1);
+  this->proxies.push_back(ball(0.05, 2, at + Eigen::Vector3d(0.6, 0, 0), {-6, 0, 0}));
+  this->proxies.back().key = 8;
+  this->tick(3);
+  EXPECT_TRUE(this->sleeps(1));
+  this->tick(6);
+  EXPECT_LT(this->solver->position(0, 1).x(), at.x() - 0.1 * kEdge);
+}
+
+TYPED_TEST(Sleep, OtherGravityWakesAll) {
+  this->solver->addBody(looseCubes(2), kNoGravity);
+  this->tick(60);
+  ASSERT_TRUE(this->sleeps(0));
+  this->solver->tick(kFrame, Eigen::Vector3d(0, 9.81, 0), this->proxies);
+  EXPECT_FALSE(this->sleeps(0));
+  EXPECT_GT(this->solver->velocity(0, 0).y(), 0.1);
+}
+
+TYPED_TEST(Sleep, ARunIsTheSameUpToWhereTheFirstFallsAsleep) {
+  // What sleeps took no force before, so that sleep changes nothing until then.
+  edem::SolverDef def;
+  def.breaking = def.crushing = false;
+  const auto other =
+      edem::Solver::make(std::is_same_v<TypeParam, float> ? Precision::Float : Precision::Double, def);
+  std::vector<edem::RigidProxy> copies = {ground()};
+  other->addBody(looseCubes(3), kNoGravity);
+  this->solver->addBody(looseCubes(3), kNoGravity);
+  for (int t = 0; t < 100 && !this->sleeps(0); ++t) {
+    EXPECT_EQ(other->hash(), this->solver->hash()) << t;
+    other->tick(kFrame, kGravity, copies);
+    this->tick(1);
+  }
+  EXPECT_TRUE(this->sleeps(0));
+}
+
+}  // namespace
+}  // namespace rubble::test
