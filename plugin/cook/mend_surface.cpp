@@ -191,6 +191,8 @@ std::optional<Mesh> unionOf(Mesh first, Mesh second) {
   } catch (const std::exception&) {  // passes through itself, or is too nearly flat for CGAL
     return std::nullopt;
   }
+  if (!result.is_valid(false) || !CGAL::is_closed(result) || !CGAL::is_triangle_mesh(result))
+    return std::nullopt;
   return result;
 }
 
@@ -199,8 +201,8 @@ double overlapOf(Mesh first, Mesh second) {
   Mesh result;
   sourcesOf(result);
   try {
-    if (!Processing::corefine_and_compute_intersection(first, second, result,
-                                                       CGAL::parameters::visitor(KeepSources())))
+    if (!Processing::corefine_and_compute_intersection(
+            first, second, result, CGAL::parameters::visitor(KeepSources()).throw_on_self_intersection(true)))
       return 1;
   } catch (const std::exception&) {
     return 1;
@@ -267,6 +269,7 @@ using Crossed = std::set<std::array<std::uint32_t, 2>>;  // shells, the smaller 
 struct Part {
   std::vector<std::uint32_t> shells;
   Mesh mesh;
+  bool isPinched = false;  // touches itself
 };
 
 bool meet(const Part& a, const Part& b, const Crossed& crossed) {
@@ -274,6 +277,10 @@ bool meet(const Part& a, const Part& b, const Crossed& crossed) {
     for (const std::uint32_t other : b.shells)
       if (crossed.contains({std::min(own, other), std::max(own, other)})) return true;
   return false;
+}
+
+bool canCut(const Part& a, const Part& b, const Crossed& crossed) {
+  return !a.isPinched && !b.isPinched && meet(a, b, crossed);
 }
 
 // Shells turned inwards that lie inside of one turned outwards which they do not cross are its cavities, also
@@ -314,21 +321,25 @@ std::vector<Part> partsOf(const Soup& soup, const std::vector<Shell>& shells, co
     if (shells[s].volume < 0) Processing::reverse_face_orientations(mesh);
     Processing::remove_degenerate_faces(mesh);
     mesh.collect_garbage();
-    parts.push_back({std::move(shellsOf[s]), std::move(mesh)});
+    const bool isPinched = Processing::does_self_intersect(mesh);  // also once flat triangles are gone
+    parts.push_back({std::move(shellsOf[s]), std::move(mesh), isPinched});
   }
   return parts;
 }
 
-// Unites as many of the parts as can be.
-void unite(std::vector<Part>& parts, const Crossed& crossed) {
+// Unites as many of the parts as can be. A union may touch itself, at a corner or an edge: CGAL cannot cut
+// such a one again, it reads memory that is none. So it is taken only if `pinchedToo`.
+void unite(std::vector<Part>& parts, const Crossed& crossed, bool pinchedToo) {
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = i + 1; j < parts.size();) {
-      auto whole = meet(parts[i], parts[j], crossed) ? unionOf(parts[i].mesh, parts[j].mesh) : std::nullopt;
-      if (!whole) {
+      auto whole = canCut(parts[i], parts[j], crossed) ? unionOf(parts[i].mesh, parts[j].mesh) : std::nullopt;
+      const bool isPinched = whole && Processing::does_self_intersect(*whole);
+      if (!whole || (isPinched && !pinchedToo)) {
         ++j;
         continue;
       }
       parts[i].mesh = *std::move(whole);
+      parts[i].isPinched = isPinched;
       parts[i].shells.insert(parts[i].shells.end(), parts[j].shells.begin(), parts[j].shells.end());
       parts.erase(parts.begin() + std::ptrdiff_t(j));
       j = i + 1;  // what did not meet it before may now
@@ -361,12 +372,14 @@ void uniteParts(Soup& soup, Mended& mended) {
 
   std::vector<Part> parts = partsOf(soup, shells.list, crossed, isWanted);
   const std::size_t before = parts.size();
-  unite(parts, crossed);
+  unite(parts, crossed, false);
+  unite(parts, crossed, true);
   std::set<std::array<std::uint32_t, 2>> apart;
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = i + 1; j < parts.size(); ++j)
       if (meet(parts[i], parts[j], crossed) &&
-          overlapOf(parts[i].mesh, parts[j].mesh) > kNoOverlap * cubedSize(soup))
+          (!canCut(parts[i], parts[j], crossed) ||
+           overlapOf(parts[i].mesh, parts[j].mesh) > kNoOverlap * cubedSize(soup)))
         for (const std::uint32_t own : parts[i].shells)
           for (const std::uint32_t other : parts[j].shells)
             apart.insert({std::min(own, other), std::max(own, other)});
@@ -392,7 +405,13 @@ double volumeOf(const Soup& soup) {
   return volume;
 }
 
+// Whether CGAL takes all of its triangles: not where two edges have the same ends.
+bool isMesh(const Soup& soup) {
+  return meshOf(soup, allOf(soup)).number_of_faces() == soup.triangles.size();
+}
+
 void turnOutwards(Soup& soup) {
+  if (!isMesh(soup)) return;  // left for the check of the mesh to name
   Mesh mesh = meshOf(soup, allOf(soup));
   Processing::orient_to_bound_a_volume(mesh);
   soup = {};
@@ -403,6 +422,7 @@ void turnOutwards(Soup& soup) {
 
 Mended mendSurface(Soup& soup, const RepairOptions& options) {
   Mended mended;
+  if (!isMesh(soup)) return mended;
   fillHoles(soup, options, mended);
   if (!openEdges(soup).empty()) return mended;
   uniteParts(soup, mended);

@@ -225,10 +225,12 @@ TEST_F(CookProgram, AFolderThatCannotBeWrittenIsExitCode1) {
 }
 
 TEST_F(CookProgram, ScenesRepairMeshes) {
-  m_folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
-  m_folder.write("scene.json", R"({"frames": 1, "objects": [{"mesh": "open.obj", "elements": 20}]})");
+  m_folder.write("open.obj",
+                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                 "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\n");
+  m_folder.write("scene.json", R"({"frames": 1, "objects": [{"mesh": "open.obj", "elements": 100}]})");
   expectError(run("run scene.json --no-render"), 2,
-              "\"repair\": true mends that: filled 1 hole of 3 edges, 0.5 m^2");
+              "\"repair\": true mends that: filled 1 hole of 4 edges, 1 m^2");
   const ChildResult mended = run("run scene.json --no-render --set objects.0.repair=true");
   EXPECT_EQ(mended.exitCode, 0) << mended.error;
 }
