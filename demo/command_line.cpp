@@ -92,6 +92,9 @@ void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
   cook->add_option("--radius", options.radius,
                    "of the elements [m], default chosen; alone, as many are made as fit");
   cook->add_option("--scale", options.scale, "length of one unit of the mesh [m], default 1");
+  cook->add_flag(
+      "--repair", options.repair,
+      "mend the surface first: weld corners, turn triangles, fill holes, unite parts that overlap");
   cook->add_option("--anchor", raw.anchor, "x,y,z: the flat side that faces this way is tied to the world");
   cook->add_option("--seed", options.seed, "of the packing, default 1")->check(CLI::NonNegativeNumber);
 }

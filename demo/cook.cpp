@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -65,7 +66,11 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
 
 SurfaceMesh meshOf(const CookFileOptions& given) {
   try {
-    return readSolid(given.mesh, given.scale);
+    const SurfaceMesh mesh = readSolid(given.mesh, given.scale);
+    if (!given.repair) return mesh;
+    return repairSolid(mesh, [&given](LogLevel, const std::string& line) {
+      std::cerr << "rubble: " << given.mesh.string() << ": " << line << '\n';
+    });
   } catch (const Error& error) {
     throw InputError(error.what());
   }
@@ -80,7 +85,9 @@ Asset cookSolid(const SurfaceMesh& mesh, const CookFileOptions& given) {
         [&](double share, const char* stage) { progress.show(share, std::string("cooking, ") + stage); },
         consoleLog());
   } catch (const Error& error) {
-    throw InputError(given.mesh.string(), "", error.what());
+    const std::string refusal = error.what();
+    throw InputError(given.mesh.string(), "",
+                     refusal + (given.repair ? "" : repairHint(mesh, refusal, "--repair")));
   }
 }
 

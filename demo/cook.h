@@ -18,10 +18,11 @@ struct CookFileOptions {
   double scale = 1;                       ///< of one unit of the mesh [m]
   std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
   std::uint64_t seed = 1;
+  bool repair = false;  ///< the mesh, before it is cooked
 };
 
-/// Writes the asset and tells in one line what was made. Throws InputError before the long work where it can,
-/// MachineError; the asset is written whole or not at all.
+/// Writes the asset and tells in one line what was made, and on stderr in one each what was repaired. Throws
+/// InputError before the long work where it can, MachineError; the asset is written whole or not at all.
 void cookFile(const CookFileOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

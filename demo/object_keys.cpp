@@ -271,6 +271,8 @@ const Table<SceneObject>& objectKeys() {
           file("mesh", &SceneObject::mesh, "closed surface to cook instead of a shape: OBJ, OFF, PLY or STL"),
           number<SceneObject>("scale", &SceneObject::scale, kMeshScale, "m", "length of one unit of the mesh")
               .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
+          flag<SceneObject>("repair", &SceneObject::repair, "mends the mesh first, as `rubble cook --repair`")
+              .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
           file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
               .only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); }),
           shape(),

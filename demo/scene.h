@@ -27,6 +27,7 @@ struct Placement {
 struct SceneObject : Placement {
   std::filesystem::path mesh = {};   ///< empty: none
   double scale = 1;                  ///< of one unit of the mesh [m]
+  bool repair = false;               ///< the mesh, before it is cooked
   std::filesystem::path asset = {};  ///< empty: none
   enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue };
   Shape shape = Shape::Box;

@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <sstream>
+#include <utility>
+
+#include "rubble/repair.h"
 
 namespace rubble::demo {
 namespace {
@@ -24,6 +27,28 @@ SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
   text << file.string() << ": is " << across << " m across with " << scale << " m a unit, must be "
        << limits::kLength.text() << " m; a scale changes it";
   throw Error(text.str());
+}
+
+SurfaceMesh repairSolid(const SurfaceMesh& mesh, const LogFunction& log) {
+  RepairedMesh repaired = repair(mesh);
+  for (const std::string& line : repaired.done) log(LogLevel::Info, line);
+  for (const std::string& line : repaired.left) log(LogLevel::Info, line);
+  if (repaired.done.empty() && repaired.left.empty() && repaired.fault.empty())
+    log(LogLevel::Info, "nothing to repair");
+  return std::move(repaired.mesh);
+}
+
+std::string repairHint(const SurfaceMesh& mesh, const std::string& refusal, const std::string& way) {
+  if (!refusal.starts_with("mesh: ")) return "";  // the elements that do not fit, say
+  try {
+    const RepairedMesh repaired = repair(mesh);
+    if (repaired.done.empty() || !repaired.left.empty() || !repaired.fault.empty()) return "";
+    std::string text;
+    for (const std::string& line : repaired.done) text += (text.empty() ? "" : ", ") + line;
+    return "; " + way + " mends that: " + text;
+  } catch (const Error&) {  // it is the refusal that counts
+    return "";
+  }
 }
 
 double volumeOf(const SurfaceMesh& mesh) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "rubble/cook.h"
 #include "rubble/limits.h"
@@ -14,6 +15,13 @@ inline constexpr Limits kMeshScale = {1e-9, 1e6};
 /// The surface in the file, `scale` metres a unit. Throws rubble::Error that starts with the file, also when
 /// its size is none that a solid may have.
 SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
+
+/// The mesh as rubble::repair mends it. `log` is told what was done and what was not.
+SurfaceMesh repairSolid(const SurfaceMesh& mesh, const LogFunction& log);
+
+/// Where `refusal`, of cook, is of a fault of the mesh that repair mends all of: what to add to it, "; WAY
+/// mends that: ..."; else nothing. As long as a repair takes.
+std::string repairHint(const SurfaceMesh& mesh, const std::string& refusal, const std::string& way);
 
 /// [m^3]; of an inside-out mesh below 0. An open one has a volume of a kind; cook() refuses both.
 double volumeOf(const SurfaceMesh& mesh);

@@ -71,7 +71,16 @@ struct Uncooked {
   std::optional<Asset> asset;
 };
 
-Uncooked uncookedObject(const Scene& scene, std::size_t index) {
+// The surface in the object's file, mended where the scene says so.
+SurfaceMesh readObject(const SceneObject& object, const LogFunction& log) {
+  const SurfaceMesh mesh = readSolid(object.mesh, object.scale);
+  if (!object.repair) return mesh;
+  return repairSolid(mesh, [&](LogLevel level, const std::string& line) {
+    if (log) log(level, object.mesh.string() + ": " + line);
+  });
+}
+
+Uncooked uncookedObject(const Scene& scene, std::size_t index, const LogFunction& log) {
   const SceneObject& object = scene.objects[index];
   Uncooked uncooked;
   if (!object.asset.empty()) {
@@ -79,7 +88,7 @@ Uncooked uncookedObject(const Scene& scene, std::size_t index) {
     requireSubsteps(scene, index, uncooked.asset->volume(), uncooked.asset->elementCount());
     return uncooked;
   }
-  uncooked.mesh = object.mesh.empty() ? primitiveMesh(object) : readSolid(object.mesh, object.scale);
+  uncooked.mesh = object.mesh.empty() ? primitiveMesh(object) : readObject(object, log);
   requireSubsteps(scene, index, volumeOf(*uncooked.mesh), object.elements);
   return uncooked;
 }
@@ -98,7 +107,9 @@ Asset cookObject(const SceneObject& object, Uncooked uncooked, std::uint64_t see
   try {
     return cook(*uncooked.mesh, options, progress, log);
   } catch (const Error& error) {
-    throw Error(object.mesh.string() + ": " + error.what());
+    const std::string refusal = error.what();
+    throw Error(object.mesh.string() + ": " + refusal +
+                (object.repair ? "" : repairHint(*uncooked.mesh, refusal, "\"repair\": true")));
   }
 }
 
@@ -120,7 +131,7 @@ void refuseAt(const Scene& scene, std::size_t object, const Work& work,
 Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const LogFunction& log) {
   std::vector<Uncooked> uncooked;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    refuseAt(scene, i, [&] { uncooked.push_back(uncookedObject(scene, i)); });
+    refuseAt(scene, i, [&] { uncooked.push_back(uncookedObject(scene, i, log)); });
   Assets assets;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     refuseAt(scene, i, [&] {

@@ -24,8 +24,11 @@ struct CheckedMesh {
   double diagonal() const { return bounds.diagonal().norm(); }
 };
 
-/// Throws rubble::Error: empty, not finite, index out of range, not closed, not manifold, not consistently
-/// oriented, oriented inwards, without volume.
+/// Throws rubble::Error: empty, too large, not finite, too far from the origin, index out of range.
+void checkNumbers(const SurfaceMesh& mesh);
+
+/// Throws rubble::Error: what checkNumbers throws, a corner twice in a triangle, not closed, not manifold,
+/// not consistently oriented, oriented inwards, without volume.
 CheckedMesh checkMesh(const SurfaceMesh& mesh);
 
 }  // namespace rubble::cooking

@@ -135,6 +135,41 @@ TEST_F(CookProgram, RefusesMeshesByFileAndFault) {
                 "--anchor: box.obj: has no flat side");
 }
 
+// A box without one of its sides, of 1 x 0.5 m, and with one triangle turned.
+TEST_F(CookProgram, RepairsAndSaysWhat) {
+  const std::string box =
+      "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 .5\nv 2 0 .5\nv 2 1 .5\nv 0 1 .5\n"
+      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8\nf 1 4 8\n";
+  m_folder.write("box.obj", box);
+  expectRefused("box.obj -o a.rubble-asset",
+                "--repair mends that: filled 1 hole of 4 edges, 0.5 m^2, turned 1");
+  const ChildResult result = run("cook box.obj -o box.rubble-asset --elements 100 --repair");
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  for (const char* line :
+       {"rubble: box.obj: filled 1 hole of 4 edges, 0.5 m^2\n", "rubble: box.obj: turned 1 triangle\n"})
+    EXPECT_NE(result.error.find(line), std::string::npos) << result.error;
+  EXPECT_EQ(lines(result.out), 1) << result.out;
+  EXPECT_NEAR(cooked("box.rubble-asset").volume(), 1, 1e-9);
+
+  m_folder.write("good.obj", kBox);
+  const ChildResult good = run("cook good.obj -o good.rubble-asset --elements 100 --repair");
+  EXPECT_NE(good.error.find("rubble: good.obj: nothing to repair\n"), std::string::npos) << good.error;
+  EXPECT_NE(run("cook --help").out.find("--repair"), std::string::npos);
+}
+
+// A sheet of two triangles holds nothing; a solid that has no room for its elements is no fault of the mesh.
+TEST_F(CookProgram, PointsToRepairOnlyWhereItHelps) {
+  m_folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\n");
+  m_folder.write("a.off", kCorner);
+  for (const char* arguments :
+       {"sheet.obj -o a.rubble-asset", "a.off -o a.rubble-asset --elements 20 --radius 0.2"}) {
+    const ChildResult result = run(std::string("cook ") + arguments);
+    expectError(result, 2, "");
+    EXPECT_EQ(result.error.find("repair"), std::string::npos) << result.error;
+  }
+  expectRefused("sheet.obj -o a.rubble-asset --repair", "sheet.obj: mesh: not closed");
+}
+
 TEST_F(CookProgram, RefusesArgumentsBeforeTheMeshIsLookedAt) {
   m_folder.write("a.off", kCorner);
   for (const char* arguments : {"",
@@ -187,6 +222,17 @@ TEST_F(CookProgram, AFullDiskIsExitCode1AndLeavesNoHalfFile) {
 TEST_F(CookProgram, AFolderThatCannotBeWrittenIsExitCode1) {
   m_folder.write("a.obj", kBox);
   expectError(run("cook a.obj -o /proc/a.rubble-asset"), 1, "/proc/a.rubble-asset: cannot be written");
+}
+
+TEST_F(CookProgram, ScenesRepairMeshes) {
+  m_folder.write("open.obj",
+                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                 "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\n");
+  m_folder.write("scene.json", R"({"frames": 1, "objects": [{"mesh": "open.obj", "elements": 100}]})");
+  expectError(run("run scene.json --no-render"), 2,
+              "\"repair\": true mends that: filled 1 hole of 4 edges, 1 m^2");
+  const ChildResult mended = run("run scene.json --no-render --set objects.0.repair=true");
+  EXPECT_EQ(mended.exitCode, 0) << mended.error;
 }
 
 // The mesh lies beside the scene's file, not in the working folder.
