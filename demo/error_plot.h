@@ -19,7 +19,7 @@ struct ErrorPlot {
   std::string timeAxis, errorAxis;  ///< what is measured, with its unit
   std::vector<Line> lines;
   double level = 0;                ///< an error that is marked by a line across; 0: none
-  std::string levelName;           ///< what it is
+  std::string levelName = {};      ///< what it is
   std::vector<std::string> notes;  ///< below
 };
 
