@@ -32,7 +32,9 @@ std::vector<double> fragmentMasses(const World& world) {
   return sorted;
 }
 
-// What is crushed and is no dust is debris, so that is no quantity of its own.
+// What is crushed and is no dust is debris, so that is no quantity of its own. One crack more or less halves
+// a fragment: five runs of `wall`, micrometres apart, had largest ones that differ by 18 %, where their
+// counts of springs differ by 4 %. So masses of fragments are in no error.
 std::vector<SceneQuantity> quantitiesOf(const World& world, const ExitSpeed& exitSpeed) {
   const Ledger& ledger = world.destruction().ledger();
   const std::vector<double> fragments = fragmentMasses(world);
@@ -41,10 +43,10 @@ std::vector<SceneQuantity> quantitiesOf(const World& world, const ExitSpeed& exi
   std::vector<SceneQuantity> quantities;
   if (!world.impactors().empty()) quantities.push_back({"exit speed, m/s", exitSpeed.value().value_or(0)});
   quantities.push_back({"broken springs", double(world.destruction().counts().springsBroken)});
-  quantities.push_back({"largest fragment, kg", fragments.empty() ? 0 : fragments.front()});
-  quantities.push_back({"next four fragments, kg", next});
   quantities.push_back({"crushed, kg", ledger.massDebris + ledger.massRemoved + ledger.massDustEmitted});
   quantities.push_back({"dust, kg", ledger.massDustEmitted});
+  quantities.push_back({"largest fragment, kg", fragments.empty() ? 0 : fragments.front(), false});
+  quantities.push_back({"next four fragments, kg", next, false});
   return quantities;
 }
 
@@ -68,13 +70,17 @@ SceneOutcome runToEnd(const Scene& scene, const std::function<void(double)>& sho
 }
 
 double relativeDifference(std::span<const SceneQuantity> found, std::span<const SceneQuantity> expected) {
-  assert(!found.empty() && found.size() == expected.size());
+  assert(found.size() == expected.size());
   double sum = 0;
+  int count = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     assert(found[i].name == expected[i].name && expected[i].value != 0);
+    if (!expected[i].inError) continue;
     sum += std::pow(found[i].value / expected[i].value - 1, 2);
+    ++count;
   }
-  return std::sqrt(sum / double(found.size()));
+  assert(count > 0);
+  return std::sqrt(sum / count);
 }
 
 }  // namespace rubble::demo

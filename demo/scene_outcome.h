@@ -13,6 +13,7 @@ namespace rubble::demo {
 struct SceneQuantity {
   std::string name;  ///< with its unit, "exit speed, m/s"
   double value = 0;
+  bool inError = true;  ///< false: for readers alone
 };
 
 struct SceneOutcome {
@@ -25,7 +26,8 @@ struct SceneOutcome {
 /// InputError when the scene is refused, RunStopped.
 SceneOutcome runToEnd(const Scene& scene, const std::function<void(double)>& shown = {});
 
-/// Root mean square of (found - expected) / expected over all quantities. No expected value may be 0.
+/// Root mean square of (found - expected) / expected over all quantities that are in the error, of which
+/// there must be some. No expected value may be 0.
 double relativeDifference(std::span<const SceneQuantity> found, std::span<const SceneQuantity> expected);
 
 }  // namespace rubble::demo

@@ -62,7 +62,7 @@ std::vector<SceneQuantity> meanOf(std::span<const std::vector<SceneQuantity>> ru
   return mean;
 }
 
-Document documentOf(const ReferenceDef& def, const SceneReference& reference) {
+Document documentOf(const ReferenceDef& def, std::span<const std::vector<SceneQuantity>> runs) {
   const Scene scene = referenceScene(def);
   Document document = {{"made_by", commandOf(def)},
                        {"commit", commitName()},
@@ -77,24 +77,23 @@ Document documentOf(const ReferenceDef& def, const SceneReference& reference) {
                          {"frames", scene.frames},
                          {"fps", scene.fps}}},
                        {"blow_shifted_m", kShifts},
-                       {"scatter", reference.scatter},
                        {"quantities", Document::array()}};
-  for (std::size_t q = 0; q < reference.quantities.size(); ++q)
-    document["quantities"].push_back({{"name", reference.quantities[q].name},
-                                      {"value", reference.quantities[q].value},
-                                      {"scatter", reference.scatters[q]}});
+  for (std::size_t q = 0; q < runs.front().size(); ++q) {
+    Document values = Document::array();
+    for (const std::vector<SceneQuantity>& run : runs) values.push_back(run[q].value);
+    document["quantities"].push_back(
+        {{"name", runs.front()[q].name}, {"in_error", runs.front()[q].inError}, {"runs", values}});
+  }
   return document;
 }
 
-SceneReference referenceIn(const Document& document) {
-  SceneReference reference;
-  reference.scatter = document.at("scatter").get<double>();
-  for (const Document& quantity : document.at("quantities")) {
-    reference.quantities.push_back(
-        {quantity.at("name").get<std::string>(), quantity.at("value").get<double>()});
-    reference.scatters.push_back(quantity.at("scatter").get<double>());
-  }
-  return reference;
+std::vector<std::vector<SceneQuantity>> runsIn(const Document& document) {
+  std::vector<std::vector<SceneQuantity>> runs(std::size(kShifts));
+  for (const Document& quantity : document.at("quantities"))
+    for (std::size_t run = 0; run < runs.size(); ++run)
+      runs[run].push_back({quantity.at("name").get<std::string>(), quantity.at("runs").at(run).get<double>(),
+                           quantity.at("in_error").get<bool>()});
+  return runs;
 }
 
 }  // namespace
@@ -138,7 +137,7 @@ void writeReference(const ReferenceDef& def, const std::filesystem::path& file,
       if (!(std::abs(quantity.value) > 0))
         throw RunStopped(def.scene + ": " + quantity.name + " is 0, so nothing differs from it by a share");
   }
-  writeWhole(file, documentOf(def, referenceOf(runs)).dump(2) + "\n");
+  writeWhole(file, documentOf(def, runs).dump(2) + "\n");
 }
 
 SceneReference readReference(const ReferenceDef& def, const std::filesystem::path& file,
@@ -156,7 +155,7 @@ SceneReference readReference(const ReferenceDef& def, const std::filesystem::pat
       refuse("is of the scene " + def.scene + " as it was before, or at other settings");
     if (document.at("solver_hash").get<std::string>() != solverHash(versions))
       refuse("is of another version of the solver (rubble/version.h)");
-    return referenceIn(document);
+    return referenceOf(runsIn(document));
   } catch (const nlohmann::json::exception&) {
     refuse("is no reference");
     throw;

@@ -29,7 +29,7 @@ struct ReferenceDef {
 struct SceneReference {
   std::vector<SceneQuantity> quantities;
   std::vector<double> scatters;  ///< of each quantity: relative, root mean square
-  double scatter = 0;            ///< of relativeDifference of all, root mean square
+  double scatter = 0;            ///< of relativeDifference, root mean square
 };
 
 /// The scene as it is compared, of that seed and length, with these changes.

@@ -56,16 +56,16 @@ std::vector<Method> sceneMethods(const SceneCaseDef& def) {
 }  // namespace
 
 ReportCase sceneCase(const SceneCaseDef& def) {
-  ReportCase c{.name = def.name,
-               .what = def.what,
-               .closedForm =
-                   "the mean of five runs in double at an eighth of the substep, micrometres apart in "
-                   "where the blow comes",
-               .error =
-                   "root mean square of the relative differences of broken springs, masses (largest "
-                   "fragment, next four, crushed, dust) and exit speed",
-               .runs = {},
-               .reference = ReferenceDef{def.name, def.scene, def.frames, def.minutes}};
+  ReportCase c{
+      .name = def.name,
+      .what = def.what,
+      .closedForm =
+          "the mean of five runs in double at an eighth of the substep, micrometres apart in "
+          "where the blow comes",
+      .error =
+          "root mean square of the relative differences of exit speed, broken springs, crushed mass and dust",
+      .runs = {},
+      .reference = ReferenceDef{def.name, def.scene, def.frames, def.minutes}};
   const ReferenceDef reference = *c.reference;
   const double safety = Scene().substepSafety;
   for (const Method& method : sceneMethods(def)) {

@@ -45,19 +45,26 @@ TEST(SceneReference, DifferencesAreRelativeAndTheirRootMeanSquareIsTaken) {
   EXPECT_EQ(demo::relativeDifference(found, found), 0);
 }
 
+TEST(SceneReference, WhatIsForReadersAloneIsInNoDifference) {
+  const Quantities found = {{"a", 2}, {"b", 9, false}}, expected = {{"a", 1}, {"b", 4, false}};
+  EXPECT_DOUBLE_EQ(demo::relativeDifference(found, expected), 1);
+}
+
 // Of 1 and 3 each is the mean of the others for the other: 1 is off by 2/3 of 3, 3 by 2 of 1.
 TEST(SceneReference, IsAMeanAndScattersAsEachRunDoesAboutTheOthers) {
-  const std::vector<Quantities> runs = {{{"a", 1}, {"b", 5}}, {{"a", 3}, {"b", 5}}};
+  const std::vector<Quantities> runs = {{{"a", 1}, {"b", 5}, {"c", 1, false}},
+                                        {{"a", 3}, {"b", 5}, {"c", 3, false}}};
   const demo::SceneReference reference = demo::referenceOf(runs);
-  ASSERT_EQ(reference.quantities.size(), 2u);
+  ASSERT_EQ(reference.quantities.size(), 3u);
   EXPECT_EQ(reference.quantities[0].name, "a");
   EXPECT_DOUBLE_EQ(reference.quantities[0].value, 2);
   EXPECT_DOUBLE_EQ(reference.quantities[1].value, 5);
   const double scatter = std::sqrt((4.0 / 9 + 4) / 2);
-  ASSERT_EQ(reference.scatters.size(), 2u);
+  ASSERT_EQ(reference.scatters.size(), 3u);
   EXPECT_DOUBLE_EQ(reference.scatters[0], scatter);
   EXPECT_EQ(reference.scatters[1], 0);
-  EXPECT_DOUBLE_EQ(reference.scatter, scatter / std::sqrt(2.0));  // of two quantities, one without any
+  EXPECT_DOUBLE_EQ(reference.scatters[2], scatter);
+  EXPECT_DOUBLE_EQ(reference.scatter, scatter / std::sqrt(2.0));  // of two in the error, one without any
 }
 
 class SmallReference : public testing::Test {
