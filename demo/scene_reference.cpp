@@ -1,5 +1,6 @@
 #include "demo/scene_reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,11 @@ std::string solverHash(std::span<const SolverVersion> versions) {
 
 std::string commandOf(const ReferenceDef& def) {
   return "rubble report " + def.caseName + " --reference";
+}
+
+InputError stale(const ReferenceDef& def, const std::filesystem::path& file, const std::string& problem) {
+  return {file.string(), "",
+          problem + "; made anew in about " + std::to_string(def.minutes) + " minutes by: " + commandOf(def)};
 }
 
 // Of runs of the same names.
@@ -160,6 +166,13 @@ SceneReference readReference(const ReferenceDef& def, const std::filesystem::pat
     refuse("is no reference");
     throw;
   }
+}
+
+void requireSameQuantities(const ReferenceDef& def, const SceneReference& reference,
+                           const SceneOutcome& run) {
+  if (!std::ranges::equal(reference.quantities, run.quantities, {}, &SceneQuantity::name,
+                          &SceneQuantity::name))
+    throw stale(def, referenceFile(def), "is of other quantities than a run has");
 }
 
 std::filesystem::path referenceFile(const ReferenceDef& def) {

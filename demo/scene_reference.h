@@ -48,6 +48,9 @@ void writeReference(const ReferenceDef& def, const std::filesystem::path& file,
 SceneReference readReference(const ReferenceDef& def, const std::filesystem::path& file,
                              std::span<const SolverVersion> versions = kSolverVersions);
 
+/// Throws InputError as readReference does when a run has other quantities than the reference.
+void requireSameQuantities(const ReferenceDef& def, const SceneReference& reference, const SceneOutcome& run);
+
 /// Where that of a scene is kept: in the folder `references` beside that of the scenes.
 std::filesystem::path referenceFile(const ReferenceDef& def);
 

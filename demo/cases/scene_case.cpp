@@ -33,6 +33,7 @@ CaseOutcome runCompared(const ReferenceDef& def, const std::vector<Override>& ch
   CaseOutcome outcome = failed(reference, scene);
   try {
     const SceneOutcome run = runToEnd(scene);
+    requireSameQuantities(def, reference, run);
     outcome.error = relativeDifference(run.quantities, reference.quantities);
     outcome.processorSeconds = run.processorSeconds;
     for (std::size_t q = 0; q < run.quantities.size(); ++q)

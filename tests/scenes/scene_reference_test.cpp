@@ -92,6 +92,10 @@ TEST_F(SmallReference, IsReadAsItWasWrittenUntilSceneOrSolverChange) {
   ASSERT_EQ(run.quantities.size(), reference.quantities.size());
   for (std::size_t q = 0; q < run.quantities.size(); ++q)
     EXPECT_EQ(run.quantities[q].name, reference.quantities[q].name);
+  EXPECT_NO_THROW(demo::requireSameQuantities(m_def, reference, run));
+  demo::SceneOutcome other = run;
+  other.quantities.back().name = "another";
+  EXPECT_THROW(demo::requireSameQuantities(m_def, reference, other), demo::InputError);
   EXPECT_GT(run.processorSeconds, 0);
   EXPECT_DOUBLE_EQ(run.simulatedSeconds, 3 / 60.0);
 
