@@ -52,6 +52,19 @@ std::string errorText(const CaseRow& row) {
   return std::isfinite(row.outcome.error) ? rounded(row.outcome.error) : "failed";
 }
 
+// What an error is made of, in rows: the reference itself and its scatter.
+void addReference(TextRows& table, const ReportCase& c, const CaseOutcome& outcome) {
+  for (const bool isScatter : {false, true}) {
+    std::vector<std::string> row(table.front().size() - outcome.quantities.size());
+    row[0] = c.name;
+    row[1] = isScatter ? "scatter of the reference, relative" : "reference";
+    if (isScatter) row[4] = rounded(outcome.scatter);
+    for (const CaseQuantity& quantity : outcome.quantities)
+      row.push_back(rounded(isScatter ? quantity.scatter : quantity.expected));
+    table.push_back(row);
+  }
+}
+
 // The row that stands for a method: its default setting, or the least error.
 const CaseRow& representative(std::span<const CaseRow> rows) {
   const auto standard = std::ranges::find_if(rows, [](const CaseRow& row) { return row.run->standard; });
@@ -87,6 +100,22 @@ std::string notesOf(const std::vector<const ReportCase*>& cases) {
          ", commit " + commitName() + ".\n";
 }
 
+// Of the cases that have one.
+void makeReferences(const std::vector<const ReportCase*>& cases, std::ostream& out) {
+  double all = 0, done = 0;  // [minutes]
+  for (const ReportCase* c : cases) all += c->reference ? c->reference->minutes : 0;
+  Progress progress("reference");
+  for (const ReportCase* c : cases) {
+    if (!c->reference) continue;
+    const std::filesystem::path file = referenceFile(*c->reference);
+    writeReference(*c->reference, file, [&](double share) {
+      progress.show((done + share * c->reference->minutes) / all, c->name);
+    });
+    done += c->reference->minutes;
+    out << "reference: " << file.string() << '\n';
+  }
+}
+
 }  // namespace
 
 TextRows caseCsv(const ReportCase& c, std::span<const CaseRow> rows) {
@@ -96,6 +125,12 @@ TextRows caseCsv(const ReportCase& c, std::span<const CaseRow> rows) {
     table.push_back({c.name, row.run->method, row.run->setting, row.run->standard ? "1" : "0", errorText(row),
                      rounded(row.milliseconds()), rounded(row.outcome.simulatedSeconds),
                      std::to_string(kCaseSeed), commitName(), machineName()});
+  if (rows.empty() || rows.front().outcome.quantities.empty()) return table;
+  for (const CaseQuantity& quantity : rows.front().outcome.quantities) table[0].push_back(quantity.name);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const CaseQuantity& quantity : rows[i].outcome.quantities)
+      table[i + 1].push_back(std::isfinite(quantity.value) ? rounded(quantity.value) : "failed");
+  addReference(table, c, rows.front().outcome);
   return table;
 }
 
@@ -104,6 +139,8 @@ std::string caseSvg(const ReportCase& c, std::span<const CaseRow> rows) {
                  .timeAxis = "ms of one core per simulated second",
                  .errorAxis = c.error,
                  .lines = {},
+                 .level = rows.empty() ? 0 : rows.front().outcome.scatter,
+                 .levelName = "scatter of the reference",
                  .notes = {"Against " + c.closedForm + ".", "On " + machineName() + ".",
                            "Seed " + std::to_string(kCaseSeed) + ", commit " + commitName() + "."}};
   bool tooSmall = false;
@@ -131,6 +168,7 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
   for (const ReportCase* c : casesOf(options)) {
     for (const std::string& text : {c->name, c->what, c->closedForm, c->error}) add(text + "\n");
     for (const CaseRun* run : runsOf(*c, options.quick)) add(run->method + "\n" + run->setting + "\n");
+    if (c->reference) add(referenceHash(*c->reference, versions));
   }
   for (const SolverVersion& version : versions) hash.add(version.world);
   return hashText(hash.value());
@@ -138,22 +176,27 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
 
 void caseReport(const CaseReportOptions& options, std::ostream& out) {
   const std::vector<const ReportCase*> cases = casesOf(options);
+  if (options.reference) return makeReferences(cases, out);
+  for (const ReportCase* c : cases)
+    if (c->reference) readReference(*c->reference, referenceFile(*c->reference));
   const std::filesystem::path folder = options.folder.empty() ? "out/report" : options.folder;
   std::optional<MarkedText> document;
   if (!options.write.empty()) document.emplace(options.write, "rubble report" + argumentsOf(options));
   checkFolder("--out", folder);
   makeFolder(folder);
 
-  std::size_t count = 0, done = 0;
-  for (const ReportCase* c : cases) count += runsOf(*c, options.quick).size();
+  double all = 0, done = 0;  // [s], as the runs say
+  for (const ReportCase* c : cases)
+    for (const CaseRun* run : runsOf(*c, options.quick)) all += run->seconds;
   Progress progress("report");
   TextRows table = {{"case", "method", "setting", "error", "ms a simulated second"}};
   std::string files;
   for (const ReportCase* c : cases) {
     std::vector<CaseRow> rows;
     for (const CaseRun* run : runsOf(*c, options.quick)) {
-      progress.show(double(done++) / double(count), c->name + ", " + run->method);
+      progress.show(done / all, c->name + ", " + run->method);
       rows.push_back({run, run->run()});
+      done += run->seconds;
     }
     addSummary(table, *c, rows);
     for (const auto& [ending, text] :

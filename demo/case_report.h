@@ -17,6 +17,7 @@ struct CaseReportOptions {
   std::vector<std::string> cases;  ///< names of reportCases()
   bool all = false;                ///< every case, whatever `cases` holds
   bool quick = false;              ///< the quick runs only
+  bool reference = false;          ///< no runs: makes the references of the cases anew
   std::filesystem::path folder;    ///< of CSV and SVG; empty: out/report
   std::filesystem::path write;     ///< a Markdown file that holds this report's markers; empty: none
 };
@@ -30,7 +31,8 @@ struct CaseRow {
   double milliseconds() const { return 1e3 * outcome.processorSeconds / outcome.simulatedSeconds; }
 };
 
-/// All rows with a heading; where they were made in the last columns.
+/// All rows with a heading; where they were made in the last columns. Where an error is made of several
+/// quantities they are in columns too, and two rows more hold their reference and its scatter.
 TextRows caseCsv(const ReportCase& reportCase, std::span<const CaseRow> rows);
 
 /// Error over milliseconds of one core per simulated second.
@@ -43,7 +45,8 @@ std::string caseReportHash(const CaseReportOptions& options,
 
 /// Runs the cases and writes CASE.csv and CASE.svg of each; prints a Markdown table of all and writes it, if
 /// asked, between the markers of a Markdown file. Throws InputError before the first run when a name or a
-/// file is wrong, MachineError.
+/// file is wrong or a reference is of another solver, MachineError. With `reference`: makes the references of
+/// those cases that have one, and nothing else.
 void caseReport(const CaseReportOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

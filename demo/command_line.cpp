@@ -127,6 +127,9 @@ void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
                          sceneNames() + ", or path of a JSON file)");
   report->add_flag("--all", line.caseReport.all, "all cases");
   report->add_flag("--quick", line.caseReport.quick, "of cases: fewer settings");
+  report->add_flag("--reference", line.caseReport.reference,
+                   "of cases (" + referenceCaseNames() +
+                       "): makes what they are compared with anew, in minutes, and runs nothing else");
   addSceneOptions(*report, line, raw, false);
   addPath(*report, "--out", line.report.folder, "folder of the results, default out/report");
   report
@@ -183,6 +186,20 @@ void refuseSceneOptions(const Raw& raw, const std::string& reported) {
     throw InputError("report", reported, "is no scene that --set, --sweep, --frames or --seed could change");
 }
 
+// References are made of cases that have one, all settings or none.
+void checkReference(const CommandLine& line) {
+  if (!line.caseReport.reference) return;
+  for (const std::string& name : line.caseReport.cases)
+    if (!findReportCase(name)->reference)
+      throw InputError("--reference", name, "has a closed form, must be one of: " + referenceCaseNames());
+  const auto refuse = [](const char* option) {
+    throw InputError(option, "", "means a report, must be left out with --reference");
+  };
+  if (line.caseReport.quick) refuse("--quick");
+  if (!line.report.folder.empty()) refuse("--out");
+  if (!line.report.write.empty()) refuse("--write");
+}
+
 // Several words are cases; one may be a scene, or the materials.
 void sortReport(CommandLine& line, const Raw& raw) {
   CaseReportOptions& cases = line.caseReport;
@@ -193,6 +210,7 @@ void sortReport(CommandLine& line, const Raw& raw) {
   const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
   if (raw.reported == std::vector<std::string>{kMaterialReportName} && !cases.all) {
     if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
+    if (cases.reference) throw InputError("--reference", kMaterialReportName, "is no case, must be left out");
     refuseSceneOptions(raw, kMaterialReportName);
     line.command = CommandLine::Command::MaterialReport;
     line.materialReport = {line.report.folder, line.report.write};
@@ -206,6 +224,7 @@ void sortReport(CommandLine& line, const Raw& raw) {
                        "is no case and no scene, must be one of: " + reportCaseNames() + ", " + sceneNames() +
                            ", " + kMaterialReportName + ", or the path of a JSON file");
     if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
+    if (cases.reference) throw InputError("--reference", line.scene, "is a scene, must be left out");
     return;
   }
   if (stranger != raw.reported.end())
@@ -215,6 +234,7 @@ void sortReport(CommandLine& line, const Raw& raw) {
   cases.cases = raw.reported;
   cases.folder = line.report.folder;
   cases.write = line.report.write;
+  checkReference(line);
 }
 
 // An asset has nothing to run and no keys to change.

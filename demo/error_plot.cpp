@@ -25,9 +25,9 @@ constexpr double kMargin = 10;
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 
-// Powers of ten around all values of one kind, at least one decade.
+// Powers of ten around all values of one kind, and `also` where it is not 0; at least one decade.
 struct Decades {
-  Decades(const ErrorPlot& plot, double ErrorPlot::Point::*value) {
+  Decades(const ErrorPlot& plot, double ErrorPlot::Point::*value, double also = 0) {
     double low = HUGE_VAL, high = 0;
     for (const ErrorPlot::Line& line : plot.lines) {
       for (const ErrorPlot::Point& point : line.points) {
@@ -35,6 +35,10 @@ struct Decades {
         low = std::min(low, point.*value);
         high = std::max(high, point.*value);
       }
+    }
+    if (also > 0) {
+      low = std::min(low, also);
+      high = std::max(high, also);
     }
     assert(high > 0);
     first = int(std::floor(std::log10(low)));
@@ -47,7 +51,7 @@ struct Decades {
 
 struct Frame {
   explicit Frame(const ErrorPlot& plot)
-      : times(plot, &ErrorPlot::Point::time), errors(plot, &ErrorPlot::Point::error) {}
+      : times(plot, &ErrorPlot::Point::time), errors(plot, &ErrorPlot::Point::error, plot.level) {}
   double x(double time) const { return kLeft + kPlotWidth * times.share(time); }
   double y(double error) const { return kTop + kPlotHeight * (1 - errors.share(error)); }
   Decades times, errors;
@@ -82,6 +86,14 @@ void drawLine(Svg& svg, const Frame& frame, const ErrorPlot::Line& line, const s
   }
 }
 
+void drawLevel(Svg& svg, const Frame& frame, const ErrorPlot& plot) {
+  constexpr double kThickness = 2, kAbove = 4;
+  constexpr const char* kGrey = "#888888";
+  const double y = frame.y(plot.level);
+  svg.line(kLeft, y, kLeft + kPlotWidth, y, kGrey, kThickness);
+  svg.text(kLeft + kPlotWidth - kMargin, y - kAbove, plot.levelName, "end");
+}
+
 void drawLegendEntry(Svg& svg, double y, const std::string& words, const std::string& colour, bool ring) {
   constexpr double kBase = 4;
   const double x = kLeft + kPlotWidth + 2 * kMargin;
@@ -98,6 +110,7 @@ std::string svgOf(const ErrorPlot& plot) {
   Svg svg(kWidth, bottom + kLine * double(notes.size() + 1));
   svg.text(kMargin, 2 * kMargin, plot.title);
   drawAxes(svg, frame, plot);
+  if (plot.level > 0) drawLevel(svg, frame, plot);
   double y = kTop;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     const char* colour = kColours[i % kColours.size()];

@@ -18,6 +18,8 @@ struct ErrorPlot {
   std::string title;
   std::string timeAxis, errorAxis;  ///< what is measured, with its unit
   std::vector<Line> lines;
+  double level = 0;                ///< an error that is marked by a line across; 0: none
+  std::string levelName = {};      ///< what it is
   std::vector<std::string> notes;  ///< below
 };
 

@@ -7,14 +7,21 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(),
-                                                slideCase(),      hungCase(),   waveCase()};
+  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(), slideCase(),
+                                                hungCase(),       waveCase(),   wallBlowCase()};
   return cases;
 }
 
 std::string reportCaseNames() {
   std::string names;
   for (const ReportCase& c : reportCases()) names += (names.empty() ? "" : ", ") + c.name;
+  return names;
+}
+
+std::string referenceCaseNames() {
+  std::string names;
+  for (const ReportCase& c : reportCases())
+    if (c.reference) names += (names.empty() ? "" : ", ") + c.name;
   return names;
 }
 

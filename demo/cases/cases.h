@@ -13,6 +13,7 @@ ReportCase freeSpinCase();
 ReportCase slideCase();
 ReportCase hungCase();
 ReportCase waveCase();
+ReportCase wallBlowCase();
 
 /// Sag of a cantilever of square section under its own weight at the distance x from its root [m], by
 /// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus

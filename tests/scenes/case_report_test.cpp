@@ -38,6 +38,19 @@ TEST(CaseReport, NamesAreCasesAndAScenesNameIsAScene) {
   EXPECT_EQ(line.caseReport.write, "w.md");
 }
 
+TEST(CaseReport, ReferencesAreOfCasesThatHaveOneAndOfAllTheirSettings) {
+  EXPECT_TRUE(parsed({"report", "wall_blow", "--reference"}).caseReport.reference);
+  EXPECT_TRUE(parsed({"report", "--all", "--reference"}).caseReport.reference);
+  EXPECT_NE(refusalOf({"wall_blow", "slide", "--reference"})
+                .find("slide: has a closed form, must be one of: " + demo::referenceCaseNames()),
+            std::string::npos);
+  for (const char* other : {"wall", "materials"})
+    EXPECT_NE(refusalOf({other, "--reference"}).find("must be left out"), std::string::npos) << other;
+  EXPECT_NE(refusalOf({"wall_blow", "--reference", "--quick"}).find("--quick"), std::string::npos);
+  for (const char* option : {"--out", "--write"})
+    EXPECT_NE(refusalOf({"wall_blow", "--reference", option, "x"}).find(option), std::string::npos);
+}
+
 TEST(CaseReport, AnUnknownNameIsRefusedWithTheKnownOnes) {
   EXPECT_NE(refusalOf({"cantilevr"}).find("must be one of: " + demo::reportCaseNames() + ", column"),
             std::string::npos);
@@ -110,6 +123,26 @@ TEST(CaseReport, TheCsvHasARowARun) {
   for (const std::vector<std::string>& row : table) EXPECT_EQ(row.size(), table[0].size());
 }
 
+// What an error is made of stands behind; its reference and scatter are two rows more.
+TEST(CaseReport, TheCsvHasTheQuantitiesBesideTheirReference) {
+  const demo::ReportCase c = someCase();
+  demo::CaseOutcome good{.error = 0.25, .simulatedSeconds = 1}, bad{.error = HUGE_VAL, .simulatedSeconds = 1};
+  good.scatter = bad.scatter = 0.125;
+  good.quantities = {{"h", 5, 4, 0.5}, {"i", 6, 8, 0.75}};
+  bad.quantities = {{"h", NAN, 4, 0.5}, {"i", NAN, 8, 0.75}};
+  const std::vector<demo::CaseRow> rows = {{&c.runs[0], good}, {&c.runs[2], bad}};
+  const demo::TextRows table = demo::caseCsv(c, rows);
+  ASSERT_EQ(table.size(), 5u);
+  const std::vector<std::vector<std::string>> ends = {
+      {"h", "i"}, {"5", "6"}, {"failed", "failed"}, {"4", "8"}, {"0.5", "0.75"}};
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    EXPECT_EQ(table[row].size(), table[0].size());
+    EXPECT_EQ(std::vector<std::string>(table[row].end() - 2, table[row].end()), ends[row]);
+  }
+  EXPECT_EQ(table[3][1], "reference");
+  EXPECT_EQ(table[4][4], "0.125");
+}
+
 TEST(CaseReport, ThePictureIsXmlAndTellsWhatFailedAndWhatIsTooSmall) {
   const demo::ReportCase c = someCase();
   const std::vector<demo::CaseRow> rows = {
@@ -147,6 +180,20 @@ TEST(ErrorPlot, IsLogarithmicBothWays) {
   EXPECT_GT(ys[1], ys[0]);
   EXPECT_NEAR(xs[2] - xs[1], xs[1] - xs[0], 0.01);  // printed to six digits
   EXPECT_NEAR(ys[2] - ys[1], ys[1] - ys[0], 0.01);
+}
+
+TEST(ErrorPlot, MarksALevel) {
+  const std::string svg = demo::svgOf(demo::ErrorPlot{.title = "t",
+                                                      .timeAxis = "x",
+                                                      .errorAxis = "y",
+                                                      .lines = {{"m", {{1, 0.1, true}, {10, 0.001}}}},
+                                                      .level = 0.01,
+                                                      .levelName = "scatter",
+                                                      .notes = {}});
+  EXPECT_EQ(faultOfXml(svg), "");
+  EXPECT_NE(svg.find(">scatter</text>"), std::string::npos);
+  // The plot reaches from y = 64 to 404; 0.01 is halfway between 0.1 and 0.001.
+  EXPECT_NE(svg.find("y1=\"234\" x2=\"550\" y2=\"234\" stroke=\"#888888\""), std::string::npos);
 }
 
 // A slender beam sags by q L^4 / (8 E I) at its tip, and shear adds q L^2 / (2 kappa G A). Integrated anew:

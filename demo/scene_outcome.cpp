@@ -1,0 +1,86 @@
+#include "demo/scene_outcome.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "demo/console.h"
+#include "demo/exit_speed.h"
+#include "demo/processor_time.h"
+#include "demo/world.h"
+
+namespace rubble::demo {
+namespace {
+
+constexpr std::size_t kNextFragments = 4;  // after the largest: those that one sees as pieces
+
+// Of all bodies, the heaviest first [kg].
+std::vector<double> fragmentMasses(const World& world) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> masses;  // by body and root
+  for (const DestructibleBody* body : world.destruction().bodies()) {
+    const std::span<const std::uint32_t> roots = body->fragments();
+    for (std::size_t i = 0; i < roots.size(); ++i)
+      if (body->elementsAlive()[i])
+        masses[{body->id(), roots[i]}] += body->material().density * body->asset()->volumes[i];
+  }
+  std::vector<double> sorted;
+  for (const auto& [fragment, mass] : masses) sorted.push_back(mass);
+  std::ranges::sort(sorted, std::greater());
+  return sorted;
+}
+
+// What is crushed and is no dust is debris, so that is no quantity of its own. One crack more or less halves
+// a fragment: five runs of `wall`, micrometres apart, had largest ones that differ by 18 %, where their
+// counts of springs differ by 4 %. So masses of fragments are in no error.
+std::vector<SceneQuantity> quantitiesOf(const World& world, const ExitSpeed& exitSpeed) {
+  const Ledger& ledger = world.destruction().ledger();
+  const std::vector<double> fragments = fragmentMasses(world);
+  double next = 0;
+  for (std::size_t i = 1; i < std::min(fragments.size(), 1 + kNextFragments); ++i) next += fragments[i];
+  std::vector<SceneQuantity> quantities;
+  if (!world.impactors().empty()) quantities.push_back({"exit speed, m/s", exitSpeed.value().value_or(0)});
+  quantities.push_back({"broken springs", double(world.destruction().counts().springsBroken)});
+  quantities.push_back({"crushed, kg", ledger.massDebris + ledger.massRemoved + ledger.massDustEmitted});
+  quantities.push_back({"dust, kg", ledger.massDustEmitted});
+  quantities.push_back({"largest fragment, kg", fragments.empty() ? 0 : fragments.front(), false});
+  quantities.push_back({"next four fragments, kg", next, false});
+  return quantities;
+}
+
+}  // namespace
+
+SceneOutcome runToEnd(const Scene& scene, const std::function<void(double)>& shown) {
+  World world(scene, cookObjects(scene), consoleLog());
+  ExitSpeed exitSpeed(world);
+  SceneOutcome outcome;
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    const double start = processorTime();
+    world.step();
+    outcome.processorSeconds += processorTime() - start;
+    world.destruction().takeEvents();  // or their list would fill up
+    exitSpeed.update(world);
+    if (shown) shown((frame + 1.0) / scene.frames);
+  }
+  outcome.quantities = quantitiesOf(world, exitSpeed);
+  outcome.simulatedSeconds = scene.frames / scene.fps;
+  return outcome;
+}
+
+double relativeDifference(std::span<const SceneQuantity> found, std::span<const SceneQuantity> expected) {
+  assert(found.size() == expected.size());
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    assert(found[i].name == expected[i].name && expected[i].value != 0);
+    if (!expected[i].inError) continue;
+    sum += std::pow(found[i].value / expected[i].value - 1, 2);
+    ++count;
+  }
+  assert(count > 0);
+  return std::sqrt(sum / count);
+}
+
+}  // namespace rubble::demo
