@@ -20,7 +20,7 @@
 #include <set>
 #include <utility>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 
 namespace rubble::cooking {
 namespace {
@@ -223,7 +223,7 @@ struct Shells {
 };
 
 Shells findShells(const Soup& soup) {
-  Groups groups(soup.vertices.size());
+  base::Groups groups(soup.vertices.size());
   for (const auto& [a, b, c] : soup.triangles) {
     groups.join(a, b);
     groups.join(b, c);

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "cook/elements.h"
 #include "base/groups.h"
+#include "cook/elements.h"
 #include "cook/hilbert.h"
 #include "cook/message.h"
 #include "cook/polyhedron.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 
 namespace rubble::cooking {
 namespace {
@@ -88,7 +88,7 @@ std::vector<bool> findWalls(const Soup& soup, const std::vector<Stack>& stacks,
   for (std::uint32_t s = 0; s < stacks.size(); ++s)
     if (stacks[s].turn == 0)
       for (const std::uint32_t t : stacks[s].triangles) stackOf[t] = s;
-  Groups regions(stacks.size());
+  base::Groups regions(stacks.size());
   std::vector<std::array<std::uint32_t, 2>>
       borders;  // a stack, and the triangles there that are kept for sure
   forEachEdge(sortedEdges(soup), [&](std::span<const SoupEdge> sides) {

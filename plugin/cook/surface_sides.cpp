@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "cook/groups.h"
+#include "base/groups.h"
 
 namespace rubble::cooking {
 namespace {
@@ -143,7 +143,7 @@ std::optional<std::vector<bool>> findTurns(const Soup& soup, const Pairing& behi
 
 // A vertex for each fan of triangles that go on across sides.
 void partVertices(Soup& soup, const Pairing& behind) {
-  Groups corners(3 * soup.triangles.size());  // by 3 t + corner
+  base::Groups corners(3 * soup.triangles.size());  // by 3 t + corner
   const auto cornerAt = [&soup](std::uint64_t triangle, std::uint32_t vertex) {
     const std::array<std::uint32_t, 3>& at = soup.triangles[triangle];
     return std::uint32_t(3 * triangle + (at[0] == vertex ? 0u : at[1] == vertex ? 1u : 2u));

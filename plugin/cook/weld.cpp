@@ -7,8 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/groups.h"
 #include "base/hash.h"
-#include "cook/groups.h"
 
 namespace rubble::cooking {
 namespace {
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> verticesOf(const std::vector<SoupEdge>& edges) {
   return vertices;
 }
 
-void joinEqual(const Soup& soup, std::vector<std::uint32_t> vertices, Groups& groups) {
+void joinEqual(const Soup& soup, std::vector<std::uint32_t> vertices, base::Groups& groups) {
   const auto& points = soup.vertices;
   const auto key = [&points](std::uint32_t v) {
     return std::tuple(points[v].x(), points[v].y(), points[v].z(), v);
@@ -46,7 +46,8 @@ struct CellHash {
   }
 };
 
-void joinNear(const Soup& soup, const std::vector<std::uint32_t>& vertices, double distance, Groups& groups) {
+void joinNear(const Soup& soup, const std::vector<std::uint32_t>& vertices, double distance,
+              base::Groups& groups) {
   std::unordered_map<GridCell, std::vector<std::uint32_t>, CellHash> grid;
   for (const std::uint32_t v : vertices) {
     GridCell home{};
@@ -63,7 +64,7 @@ void joinNear(const Soup& soup, const std::vector<std::uint32_t>& vertices, doub
 }
 
 // Each corner becomes the first of its group.
-void rename(Soup& soup, Groups& groups) {
+void rename(Soup& soup, base::Groups& groups) {
   std::vector<std::uint32_t> first(soup.vertices.size(), kNoElement);
   for (std::uint32_t v = 0; v < soup.vertices.size(); ++v)
     if (first[groups.of(v)] == kNoElement) first[groups.of(v)] = v;
@@ -138,7 +139,7 @@ std::vector<std::uint32_t> splitOnce(Soup& soup, const std::vector<SoupEdge>& op
 }  // namespace
 
 Welded weld(Soup& soup, double distance) {
-  Groups groups(soup.vertices.size());
+  base::Groups groups(soup.vertices.size());
   joinEqual(soup, verticesOf(openEdges(soup)), groups);
   std::vector<std::array<std::uint32_t, 3>> given = soup.triangles;
   rename(soup, groups);
