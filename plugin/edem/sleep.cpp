@@ -149,7 +149,12 @@ void settle(World<Real>& w, double dt) {
     }
     if (any) dampDeformation(body, std::span<const double>(rates), dt, w.books);
   }
-  if (!(w.gravity.norm() * def.settleTime > def.settleSpeed)) return;
+  if (!(def.settleSpeed > 0) || !(w.gravity.norm() * def.sleepTime > def.settleSpeed)) return;
+  for (std::size_t b = 0; b < w.bodies.size(); ++b) {
+    const Body<Real>& body = *w.bodies[b];
+    for (std::uint32_t i = 0; !body.asleep && i < body.elementCount(); ++i)
+      if (body.alive[i] && !(double(body.slowTime[i]) > def.sleepTime)) slow[b][body.fragment[i]] = 0;
+  }
   w.rigid.visitAtMoving([&](std::uint32_t b, std::uint32_t i) {
     if (w.bodies[b]->alive[i]) slow[b][w.bodies[b]->fragment[i]] = 0;
   });

@@ -34,11 +34,13 @@ edem::RigidProxy ground() {
 template <class Real>
 class Sleep : public ::testing::Test {
  protected:
-  Sleep() {
+  Sleep() { make(0, 0.2); }
+  void make(double settleSpeed, double sleepTime) {
     edem::SolverDef def;
     def.breaking = def.crushing = false;
     def.sleepSpeed = 0.01;
-    def.sleepTime = 0.2;
+    def.sleepTime = sleepTime;
+    def.settleSpeed = settleSpeed;
     solver = edem::Solver::make(std::is_same_v<Real, float> ? Precision::Float : Precision::Double, def);
   }
   void tick(int count) {
@@ -144,6 +146,32 @@ TYPED_TEST(Sleep, OtherGravityWakesAll) {
   this->solver->tick(kFrame, Eigen::Vector3d(0, 9.81, 0), this->proxies);
   EXPECT_FALSE(this->sleeps(0));
   EXPECT_GT(this->solver->velocity(0, 0).y(), 0.1);
+}
+
+TYPED_TEST(Sleep, WhatBeginsToSlideSlowlyIsNotHeld) {
+  this->make(0.25, 2);
+  this->solver->addBody(looseCubes(1), kNoGravity);
+  const double friction = 0.6 * this->proxies[0].friction;  // mu of the pair
+  const double slope = std::atan(friction + 0.05);
+  const Eigen::Vector3d gravity = 9.81 * Eigen::Vector3d(std::sin(slope), -std::cos(slope), 0);
+  constexpr double kTime = 2.5;  // [s]
+  for (int t = 0; t < int(kTime / kFrame); ++t) this->solver->tick(kFrame, gravity, this->proxies);
+  // Coulomb: g (sin - mu cos).
+  EXPECT_NEAR(this->solver->velocity(0, 0).x(), 9.81 * 0.05 * std::cos(slope) * kTime, 0.05);
+}
+
+TYPED_TEST(Sleep, WhatRocksComesToRest) {
+  this->make(0.25, 2);
+  // Undamped: it would rock for ever.
+  edem::BodyDef def = block({1, 4, 1}, false, kEdge);
+  def.material.springDamping = def.material.contactDamping = 0;
+  this->solver->addBody(def, kNoGravity);
+  this->tick(30);
+  this->push(3, {0.03, 0, 0});
+  int ticks = 0;
+  for (; ticks < 600 && this->solver->view(0).sleepingCount == 0; ++ticks) this->tick(1);
+  EXPECT_EQ(this->solver->view(0).sleepingCount, 4u);
+  EXPECT_GT(ticks, int(2 / kFrame));
 }
 
 TYPED_TEST(Sleep, ARunIsTheSameUpToWhereTheFirstFallsAsleep) {
