@@ -148,23 +148,17 @@ void writeReference(const ReferenceDef& def, const std::filesystem::path& file,
 
 SceneReference readReference(const ReferenceDef& def, const std::filesystem::path& file,
                              std::span<const SolverVersion> versions) {
-  const auto refuse = [&](const std::string& problem) {
-    throw InputError(
-        file.string(), "",
-        problem + "; made anew in about " + std::to_string(def.minutes) + " minutes by: " + commandOf(def));
-  };
   std::ifstream stream(file);
-  if (!stream) refuse("cannot be read");
+  if (!stream) throw stale(def, file, "cannot be read");
   try {
     const Document document = Document::parse(stream);
     if (document.at("scene_hash").get<std::string>() != sceneHash(def))
-      refuse("is of the scene " + def.scene + " as it was before, or at other settings");
+      throw stale(def, file, "is of the scene " + def.scene + " as it was before, or at other settings");
     if (document.at("solver_hash").get<std::string>() != solverHash(versions))
-      refuse("is of another version of the solver (rubble/version.h)");
+      throw stale(def, file, "is of another version of the solver (rubble/version.h)");
     return referenceOf(runsIn(document));
   } catch (const nlohmann::json::exception&) {
-    refuse("is no reference");
-    throw;
+    throw stale(def, file, "is no reference");
   }
 }
 

@@ -43,10 +43,13 @@ constexpr double kRunaway = 0.5;
 Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionDef& definition)
     : world(bulletWorld),
       def(definition),
-      solver(edem::Solver::make(
-          definition.precision,
-          {definition.substepSafety, definition.maxSubstepsPerFrame, definition.breaking, definition.crushing,
-           definition.sleep ? kQuietSpeed : 0, kTimeToSleep, definition.sleep ? kSettleSpeed : 0})),
+      solver(edem::Solver::make(definition.precision, {.substepSafety = definition.substepSafety,
+                                                       .maxSubstepsPerFrame = definition.maxSubstepsPerFrame,
+                                                       .breaking = definition.breaking,
+                                                       .crushing = definition.crushing,
+                                                       .sleepSpeed = definition.sleep ? kQuietSpeed : 0,
+                                                       .sleepTime = kTimeToSleep,
+                                                       .settleSpeed = definition.sleep ? kSettleSpeed : 0})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
       proxyMaker(definition.log) {
   if (!limits::kMaxEvents.hold(def.maxEvents))

@@ -352,9 +352,43 @@ double cubedSize(const Soup& soup) {
   return std::pow(bounds.diagonal().norm(), 3);
 }
 
+using Corners = std::array<Point, 3>;
+
+Corners cornersOf(const Soup& soup, std::uint32_t triangle) {
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& p = soup.vertices[soup.triangles[triangle][k]];
+    corners[k] = Point(p.x(), p.y(), p.z());
+  }
+  return corners;
+}
+
+// Whether an edge of one goes through the inside of the other: they do not merely touch.
+bool pierces(const Corners& one, const Corners& other) {
+  const auto& [a, b, c] = other;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point &p = one[k], &q = one[(k + 1) % 3];
+    const CGAL::Orientation from = CGAL::orientation(a, b, c, p), to = CGAL::orientation(a, b, c, q);
+    if (from == CGAL::COPLANAR || to == CGAL::COPLANAR || from == to) continue;
+    const CGAL::Orientation side = CGAL::orientation(p, q, a, b);
+    if (side != CGAL::COPLANAR && side == CGAL::orientation(p, q, b, c) &&
+        side == CGAL::orientation(p, q, c, a))
+      return true;
+  }
+  return false;
+}
+
+// Leaves what passes through another as it is, and says where.
+void tellCrossings(const Soup& soup, const std::vector<Crossing>& crossings, Mended& mended) {
+  for (const auto& [a, b] : crossings) {
+    const Corners one = cornersOf(soup, a), other = cornersOf(soup, b);
+    if (!pierces(one, other) && !pierces(other, one)) continue;
+    if (mended.crossings++ == 0) mended.crossing = soup.vertices[soup.triangles[a][0]];
+  }
+}
+
 // The shells that cross none are left as they are, and so are those that cross themselves.
-void uniteParts(Soup& soup, Mended& mended) {
-  const std::vector<Crossing> crossings = findCrossings(soup);
+void uniteParts(Soup& soup, const std::vector<Crossing>& crossings, Mended& mended) {
   if (crossings.empty()) return;
   Shells shells = findShells(soup);
   Crossed crossed;
@@ -425,7 +459,11 @@ Mended mendSurface(Soup& soup, const RepairOptions& options) {
   if (!isMesh(soup)) return mended;
   fillHoles(soup, options, mended);
   if (!openEdges(soup).empty()) return mended;
-  uniteParts(soup, mended);
+  const std::vector<Crossing> crossings = findCrossings(soup);
+  if (options.unite)
+    uniteParts(soup, crossings, mended);
+  else
+    tellCrossings(soup, crossings, mended);
   if (mended.crossings == 0) {
     turnOutwards(soup);
   } else if (volumeOf(soup) < 0) {  // which shell is within which cannot be told

@@ -226,7 +226,10 @@ bool wakeTouched(World<Real>& w) {
     const Vec3<double> offset = b.origin - a.origin;
     for (std::size_t k = 0; k < list.entries.size(); ++k) {
       const PairEntry& e = list.entries[k];
-      if (a.sleeping[e.first] == b.sleeping[e.second] || !a.alive[e.first] || !b.alive[e.second]) continue;
+      // What sleeps with all of its body bears what lies on it.
+      const bool first = a.asleep || a.sleeping[e.first], second = b.asleep || b.sleeping[e.second];
+      if (first == second || !a.alive[e.first] || !b.alive[e.second]) continue;
+      if (!(first ? a.sleeping[e.first] : b.sleeping[e.second])) continue;
       if (!comesAt(list, k, offset, a, b)) continue;
       places.push_back(a.sleeping[e.first] ? Place{list.first, e.first} : Place{list.second, e.second});
     }

@@ -42,7 +42,7 @@ void wakeNeighbours(World<Real>& world, std::uint32_t body);
 template <class Real>
 void wakeAll(World<Real>& world);
 
-/// The body's elements count as awake, without a word to others: its host takes it over.
+/// The body's elements count as awake: its host takes it over, or wakes it.
 template <class Real>
 void forgetSleep(Body<Real>& body);
 

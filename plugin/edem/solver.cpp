@@ -116,7 +116,7 @@ class SolverOf final : public Solver {
     body.asleep = asleep;
     m_world.listsStale = true;
     // What its fragments lay on may have gone while nobody looked.
-    if (!asleep) return edem::forgetSleep(body);
+    if (!asleep) return forgetSleep(body);
     body.sleepingElastic = elasticOf(body);
     bookSlept(body, m_world.books);
   }

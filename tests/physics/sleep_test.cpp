@@ -139,6 +139,24 @@ TYPED_TEST(Sleep, ABallThatComesWakesItBeforeItTouches) {
   EXPECT_LT(this->solver->position(0, 1).x(), at.x() - 0.1 * kEdge);
 }
 
+TYPED_TEST(Sleep, WhatLiesOnABodyThatSleepsAsAWholeSleepsToo) {
+  this->solver->addBody(looseCubes(1), kNoGravity);
+  edem::BodyDef upper = looseCubes(1);
+  upper.transform = Eigen::Translation3d(0, 1.001 * kEdge, 0) * Eigen::Isometry3d::Identity();
+  const std::uint32_t id = this->solver->addBody(upper, kNoGravity);
+  this->tick(10);
+  this->solver->setAsleep(0, true);
+  this->tick(60);
+  for (int t = 0; t < 30; ++t) {
+    EXPECT_EQ(this->solver->view(id).sleepingCount, 1u) << t;
+    this->tick(1);
+  }
+  // And wakes with it.
+  this->solver->setAsleep(0, false);
+  this->tick(1);
+  EXPECT_EQ(this->solver->view(id).sleepingCount, 0u);
+}
+
 TYPED_TEST(Sleep, OtherGravityWakesAll) {
   this->solver->addBody(looseCubes(2), kNoGravity);
   this->tick(60);

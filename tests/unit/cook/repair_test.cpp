@@ -49,9 +49,16 @@ SurfaceMesh openBox() {
 
 using Lines = std::vector<std::string>;
 
+RepairOptions uniting() {
+  RepairOptions options;
+  options.unite = true;
+  return options;
+}
+
 // Mended, with these words, into a solid of this volume, which can be cooked to it.
-void expectMended(const SurfaceMesh& mesh, const Lines& done, double volume) {
-  const RepairedMesh repaired = repair(mesh);
+void expectMended(const SurfaceMesh& mesh, const Lines& done, double volume,
+                  const RepairOptions& options = {}) {
+  const RepairedMesh repaired = repair(mesh, options);
   EXPECT_EQ(repaired.done, done);
   EXPECT_EQ(repaired.left, Lines());
   EXPECT_EQ(repaired.fault, "");
@@ -220,29 +227,29 @@ TEST(Repair, PartsCubesThatShareAnEdge) {
 // 1 + 1 - 0.5 * 0.7 * 0.8 by inclusion and exclusion.
 TEST(Repair, UnitesPartsThatOverlap) {
   const SurfaceMesh boxes = joined(boxMesh(kUnit), boxMesh(kUnit, {0.5, 0.3, 0.2}));
-  expectMended(boxes, {"united 2 parts that overlap or touch to 1"}, 1.72);
+  expectMended(boxes, {"united 2 parts that overlap or touch to 1"}, 1.72, uniting());
   expectMended(joined(boxMesh(kUnit), reversed(boxMesh(kUnit, {0.5, 0.3, 0.2}))),
-               {"united 2 parts that overlap or touch to 1", "turned 12 triangles"}, 1.72);
+               {"united 2 parts that overlap or touch to 1", "turned 12 triangles"}, 1.72, uniting());
 }
 
 // Bars along the three axes, 3 m long and 1 m wide: 3 * 3 less twice the cube that is in all of them.
 TEST(Repair, UnitesBarsThroughEachOther) {
   const SurfaceMesh cross = joined(joined(boxMesh({3, 1, 1}), boxMesh({1, 3, 1})),
                                    joined(boxMesh({1, 1, 3}), boxMesh(kUnit, {5, 0, 0})));
-  expectMended(cross, {"united 3 parts that overlap or touch to 1"}, 8);
+  expectMended(cross, {"united 3 parts that overlap or touch to 1"}, 8, uniting());
 }
 
 TEST(Repair, UnitesPartsThatShareAFace) {
   expectMended(joined(boxMesh(kUnit), boxMesh(kUnit, {1, 0, 0})),
-               {"united 2 parts that overlap or touch to 1"}, 2);
+               {"united 2 parts that overlap or touch to 1"}, 2, uniting());
   expectMended(joined(boxMesh({3, 1, 3}), boxMesh(kUnit, {0.25, 1, 0.5})),
-               {"united 2 parts that overlap or touch to 1"}, 10);
+               {"united 2 parts that overlap or touch to 1"}, 10, uniting());
 }
 
 // Its wall is 0.25 m thick; a bar 0.1 m wide goes through the wall and 0.25 m into the cavity and outside.
 TEST(Repair, KeepsACavityThatAPartReachesInto) {
   expectMended(joined(hollowCube(), boxMesh({0.75, 0.1, 0.1}, {0.375, 0, 0})),
-               {"united 2 parts that overlap or touch to 1"}, 0.875 + 0.5 * 0.01);
+               {"united 2 parts that overlap or touch to 1"}, 0.875 + 0.5 * 0.01, uniting());
 }
 
 // Boxes of one or two cells a side in a grid of 4 x 4 x 4: they overlap, share faces, pieces of faces, edges
@@ -271,7 +278,7 @@ TEST(Repair, UnitesHeapsOfBoxesOnAGrid) {
       const Eigen::Vector3d edges(size[0], size[1], size[2]);
       mesh = joined(mesh, boxMesh(edges, Eigen::Vector3d(low[0], low[1], low[2]) + edges / 2));
     }
-    const RepairedMesh repaired = repair(mesh);
+    const RepairedMesh repaired = repair(mesh, uniting());
     if (!repaired.left.empty() || !repaired.fault.empty()) continue;  // it says so
     ++mended;
     EXPECT_NEAR(volumeOf(repaired.mesh), double(cells.size()), 1e-9) << heap;
@@ -281,9 +288,16 @@ TEST(Repair, UnitesHeapsOfBoxesOnAGrid) {
   EXPECT_GT(mended, kHeaps / 2);
 }
 
+TEST(Repair, TellsOfPartsThatOverlapUnlessTheyAreToBeUnited) {
+  const RepairedMesh repaired = repair(joined(boxMesh(kUnit), boxMesh(kUnit, {0.5, 0.3, 0.2})));
+  EXPECT_EQ(repaired.done, Lines());
+  ASSERT_EQ(repaired.left.size(), 1u);
+  EXPECT_EQ(repaired.left[0].find("passes through itself: "), 0u) << repaired.left[0];
+}
+
 TEST(Repair, LeavesCubesThatTouchAtAnEdge) {
   const SurfaceMesh cubes = joined(boxMesh(kUnit), boxMesh(kUnit, {1, 1, 0}));
-  const RepairedMesh repaired = repair(cubes);
+  const RepairedMesh repaired = repair(cubes, uniting());
   EXPECT_EQ(repaired.done, Lines());
   EXPECT_EQ(repaired.left, Lines());
 }
@@ -347,7 +361,7 @@ TEST(Repair, KeepsTheLookOfWhatIsKept) {
     auto& uvs = mesh.uvs.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) uvs[k] = mesh.vertices[mesh.triangles[t][k]].head<2>().cast<float>();
   }
-  const RepairedMesh repaired = repair(mesh);
+  const RepairedMesh repaired = repair(mesh, uniting());
   EXPECT_EQ(repaired.done, Lines{"united 2 parts that overlap or touch to 1"});
   ASSERT_EQ(repaired.mesh.uvs.size(), repaired.mesh.triangles.size());
   ASSERT_EQ(repaired.mesh.materials.size(), repaired.mesh.triangles.size());
