@@ -21,8 +21,8 @@ struct RepairOptions {
   /// more of its surface is rather a shell without thickness than a solid.
   double largestHole = 1.0 / 3;
   /// Closed parts that overlap or share a piece of face become one. Only for meshes that are known: CGAL's
-  /// unions (5.5) crash or never end for some parts that touch along edges, 8 of 6000 heaps of five boxes on
-  /// a grid. Without it such parts are told of in RepairedMesh::left.
+  /// unions (5.5) crash or never end for some parts that touch along edges, in 8 of 60 runs of a hundred
+  /// heaps of five boxes on a grid. Without it such parts are told of in RepairedMesh::left.
   bool unite = false;
 };
 
