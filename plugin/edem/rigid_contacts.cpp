@@ -101,6 +101,8 @@ double RigidContacts<Real>::endContactsOf(std::uint32_t id) {
     energy += k.memory.energy;
     return true;
   });
+  // It may come back under the same name, elsewhere.
+  for (RigidState& state : m_states) state.corners.forget(id);
   m_elastic -= energy;
   return energy;
 }
