@@ -10,7 +10,7 @@ constexpr std::size_t kFewestSlots = 16;
 
 std::size_t hashOf(const CornerName& name) {
   std::uint64_t hash = name.part;
-  for (const std::uint32_t word : {name.corner})
+  for (const std::uint32_t word : {name.edge, name.corner})
     hash = (hash ^ word) * 0x9e3779b97f4a7c15u;  // Fibonacci hashing
   return std::size_t(hash >> 32);
 }

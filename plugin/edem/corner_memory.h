@@ -44,6 +44,11 @@ class CornerMemories {
                       double way, double nearer);
   /// What they remember of a body.
   void forget(std::uint32_t body);
+  /// Whether it was in that element at the last instant.
+  bool wasIn(const CornerName& name, std::uint32_t body, std::uint32_t element) {
+    const CornerMemory* last = m_before.find(name);
+    return last && last->body == body && last->element == element;
+  }
   /// At this instant.
   const std::vector<CornerMemory>& all() const { return m_now.all(); }
 

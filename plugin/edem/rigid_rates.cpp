@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/edge_points.h"
 #include "edem/rigid_touch.h"
 
 namespace rubble::edem {
@@ -97,7 +98,15 @@ void addMobility(const RigidContact& c, const Body<Real>& body, const RigidProxy
   const double mobility =
       mobilityAt(proxy, x - proxy.position, body.cells ? body.cells->reach[c.element] : double(body.radius));
   state.mobility += mobility;
-  state.rate += c.weight * mobility * body.contact.stiffness;
+  state.rate += (c.weight - c.edges) * mobility * body.contact.stiffness;
+  if (!(c.edges > 0)) return;
+  const double rate = mobility * body.contact.stiffness;
+  state.edgeRate += c.edges * rate;
+  state.edgeMost = std::max(state.edgeMost, rate / std::sqrt(body.cells->unit));
+}
+
+void addEdges(const RigidProxy& proxy, RigidState& state) {
+  if (state.edgeRate > 0) state.rate += std::min(state.edgeRate, edgeWeight(proxy) * state.edgeMost);
 }
 
 void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2,
