@@ -95,9 +95,32 @@ SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
   return {length - c.size.x(), length > 0 ? Eigen::Vector3d(p / length) : Eigen::Vector3d::UnitY()};
 }
 
+// Faces within 2.6 degrees are one plane.
+constexpr double kLeastSharpness = 1e-3;
+
+// Edges that two faces share, and no others: the faces are closed but for slivers.
+void listEdges(Hull& hull) {
+  hull.edges.clear();
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+    const Hull::Face& face = hull.faces[f];
+    for (std::size_t v = 0; v < face.vertices.size(); ++v) {
+      const Eigen::Vector3d &from = face.vertices[v], &to = face.vertices[(v + 1) % face.vertices.size()];
+      for (std::size_t g = f + 1; g < hull.faces.size(); ++g) {
+        const Hull::Face& other = hull.faces[g];
+        const auto at = std::find(other.vertices.begin(), other.vertices.end(), to);
+        if (at == other.vertices.end()) continue;
+        if ((at + 1 == other.vertices.end() ? other.vertices.front() : at[1]) != from) continue;
+        const double sharpness = 1 - face.normal.dot(other.normal);
+        if (sharpness > kLeastSharpness) hull.edges.push_back({from, to - from, sharpness});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void listCorners(Hull& hull) {
+  listEdges(hull);
   hull.corners.clear();
   std::size_t most = 3;
   for (const Hull::Face& face : hull.faces) {

@@ -16,12 +16,18 @@ struct Hull {
     double offset;                          ///< normal . x of the plane [m]
     std::vector<Eigen::Vector3d> vertices;  ///< counter-clockwise seen from outside [m]
   };
+  /// A sharp edge between two faces.
+  struct Edge {
+    Eigen::Vector3d from, way;  ///< its ends are from and from + way [m]
+    double sharpness;           ///< 1 - cos of the angle between the normals: 1 of a right edge, 2 of a blade
+  };
   std::vector<Face> faces;
   std::vector<Eigen::Vector3d> corners;  ///< each vertex once; written by listCorners [m]
+  std::vector<Edge> edges;               ///< but for those of faces in one plane; by listCorners
   double cornerWeight = 0;               ///< stiffness of one over that of a contact; by listCorners
 };
 
-/// Fills a hull's corners from its faces.
+/// Fills a hull's corners and edges from its faces.
 void listCorners(Hull& hull);
 
 /// A surface in its own frame, rounded by `rounding`.

@@ -11,18 +11,14 @@ bool byCandidate(const CornerHit& a, const CornerHit& b) {
 }
 
 auto nameOf(const CornerHit& h) {
-  return std::tie(h.proxy, h.hit.corner.part, h.hit.corner.corner);
+  return std::tie(h.proxy, h.hit.corner.part, h.hit.corner.edge, h.hit.corner.corner);
 }
 
 }  // namespace
 
-void CornerHits::add(std::uint32_t proxy, std::uint32_t candidate, std::span<const FaceHit> hits) {
-  for (const FaceHit& hit : hits) m_hits.push_back({proxy, candidate, hit});
-}
-
 void CornerHits::settle() {
   std::stable_sort(m_hits.begin(), m_hits.end(), [](const CornerHit& a, const CornerHit& b) {
-    return nameOf(a) != nameOf(b) ? nameOf(a) < nameOf(b) : a.hit.depth > b.hit.depth;
+    return nameOf(a) != nameOf(b) ? nameOf(a) < nameOf(b) : a.rank > b.rank;
   });
   const auto same = [](const CornerHit& a, const CornerHit& b) { return nameOf(a) == nameOf(b); };
   m_hits.erase(std::unique(m_hits.begin(), m_hits.end(), same), m_hits.end());
@@ -32,7 +28,7 @@ void CornerHits::settle() {
 void CornerHits::renew(std::uint32_t proxy, std::uint32_t candidate, std::span<const FaceHit> hits) {
   std::erase_if(m_hits, [&](const CornerHit& h) { return h.candidate == candidate; });
   for (const FaceHit& hit : hits) {
-    const CornerHit own{proxy, candidate, hit};
+    const CornerHit own{proxy, candidate, hit, hit.depth};
     const auto isThis = [&](const CornerHit& h) { return nameOf(h) == nameOf(own); };
     if (std::any_of(m_hits.begin(), m_hits.end(), isThis)) continue;
     m_hits.insert(std::upper_bound(m_hits.begin(), m_hits.end(), own, byCandidate), own);
@@ -41,7 +37,7 @@ void CornerHits::renew(std::uint32_t proxy, std::uint32_t candidate, std::span<c
 
 std::span<const CornerHit> CornerHits::of(std::uint32_t candidate) const {
   const auto [begin, end] =
-      std::equal_range(m_hits.begin(), m_hits.end(), CornerHit{0, candidate, {}}, byCandidate);
+      std::equal_range(m_hits.begin(), m_hits.end(), CornerHit{0, candidate, {}, 0}, byCandidate);
   return {begin, end};
 }
 

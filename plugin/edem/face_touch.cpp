@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/edge_points.h"
 #include "edem/facing.h"
 #include "edem/fragment_motion.h"
 #include "edem/nearest_face.h"
@@ -17,6 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCornerWeight = 0.25;
 // The same of a capsule's ends and a cone's tip: the two ends of what lies are one contact.
 constexpr double kEndWeight = 0.5;
+// An edge this near to another part of its body, over h, is in a seam. So is a point of an edge this near to
+// two cells that a spring joins, and in both: where they gape by less it does not fall between them.
+constexpr double kSeam = 1e-3;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
@@ -108,6 +112,7 @@ void FaceTouch::findCorners(const CellFaces& cells, const Exposure& exposure, st
   for (const Near& n : m_near) {
     if (!hasCorners(*n.part)) continue;
     findBalls(n, cells, exposure, element, pose);
+    if (hasEdges(*n.part)) findEdgePoints(n, cells, exposure, element, pose);
     if (n.part->isRound()) findRims(n, cells, exposure, element, pose);
   }
 }
@@ -151,8 +156,8 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
 }
 
 bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                        const Eigen::Vector3d& centre, double radius, FaceHit& hit) {
-  const NearestFace face(cells, exposure, element, centre, radius);
+                        const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack) {
+  const NearestFace face(cells, exposure, element, centre, radius, slack);
   const double depth = face.inside ? radius + face.distance : radius - face.distance;
   if (!(depth > 0) || !std::isfinite(face.distance)) return false;
   Eigen::Vector3d normal = -face.normal;
@@ -180,6 +185,33 @@ void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposu
     hit.weight = weight;
     if (corners) hit.corner = {near.index, corner};
     m_hits.push_back(hit);
+  });
+}
+
+void FaceTouch::findEdgePoints(const Near& near, const CellFaces& cells, const Exposure& exposure,
+                               std::uint32_t element, const ElementPose& pose) {
+  const Collider& part = *near.part;
+  const double h = std::sqrt(cells.unit), reach = cells.reach[element] + part.rounding;
+  const Eigen::Vector3d centre = part.place.inverse(Eigen::Isometry) * pose.at;
+  visitEdgeRows(part, h, centre, reach,
+                [&](const EdgeRow& row, const EdgeRow::Range& range, std::uint32_t number) {
+                  for (std::uint32_t p = range.first; p < range.last; ++p) {
+                    const Eigen::Vector3d at = part.place * row.at(p);
+                    FaceHit hit;
+                    if (!ballHit(cells, exposure, element, pose.turn.transpose() * (at - pose.at),
+                                 part.rounding, hit, kSeam * h))
+                      continue;
+                    if (isInAnother(near, at, kSeam * h)) continue;
+                    hit.weight = row.weight();
+                    hit.corner = {near.index, row.nameOf(p), number};
+                    m_hits.push_back(hit);
+                  }
+                });
+}
+
+bool FaceTouch::isInAnother(const Near& near, const Eigen::Vector3d& at, double slack) const {
+  return std::any_of(m_near.begin(), m_near.end(), [&](const Near& n) {
+    return n.index != near.index && nearest(*n.part, at).distance < slack;
   });
 }
 

@@ -12,10 +12,12 @@
 
 namespace rubble::edem {
 
-/// Names a corner of a rigid body, a tip or a point of a rim: what slides out of one cell into the next.
+/// Names a corner of a rigid body, a tip or a point of a rim or an edge: what slides out of one cell into the
+/// next.
 struct CornerName {
   std::uint32_t part = 0;
   std::uint32_t corner = 0;  ///< 0: none
+  std::uint32_t edge = 0;    ///< not 0: `corner` is a point of that edge
   bool operator==(const CornerName&) const = default;
 };
 
@@ -52,8 +54,8 @@ class FaceTouch {
   /// `balls`: false where no sphere or corner is near.
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
             bool balls);
-  /// The hits of corners of boxes and hulls, tips of cones and rims alone, at the nearest point of the
-  /// exposed faces.
+  /// The hits of corners and edges of boxes and hulls, tips of cones and rims alone, at the nearest point of
+  /// the exposed faces.
   void findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                    const ElementPose& pose);
   void add(const FaceHit& hit) { m_hits.push_back(hit); }
@@ -106,9 +108,13 @@ class FaceTouch {
                       const Exposure& exposure, std::uint32_t element);
   // The hit of a ball, axes of the element, but for its weight.
   static bool ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                      const Eigen::Vector3d& centre, double radius, FaceHit& hit);
+                      const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack = 0);
   void findBalls(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                  const ElementPose& pose);
+
+  void findEdgePoints(const Near& near, const CellFaces& cells, const Exposure& exposure,
+                      std::uint32_t element, const ElementPose& pose);
+  bool isInAnother(const Near& near, const Eigen::Vector3d& at, double slack) const;
 
   std::vector<Near> m_near;
   std::vector<FaceHit> m_hits;

@@ -28,9 +28,12 @@ Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& a, const Eigen::Vector3
 }  // namespace
 
 NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                         const Eigen::Vector3d& centre, double radius) {
+                         const Eigen::Vector3d& centre, double radius, double slack) {
   const std::span<const CellFaces::Face> faces = cells.of(element);
-  for (const CellFaces::Face& f : faces) inside = inside && f.normal.dot(centre) <= f.offset;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const double beyond = exposure.faces[cells.firstFace[element] + f] ? 0 : slack;
+    inside = inside && faces[f].normal.dot(centre) <= faces[f].offset + beyond;
+  }
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (!exposure.faces[cells.firstFace[element] + f]) continue;
     const CellFaces::Face& face = faces[f];

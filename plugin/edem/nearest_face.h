@@ -9,10 +9,11 @@ namespace rubble::edem {
 
 /// Nearest point of the exposed faces that a ball at `centre` sees: from outside those whose front it is at;
 /// from inside the cell all of them, by their planes, for the surface goes on in the next cell. Axes of the
-/// element at rest, about its centre.
+/// element at rest, about its centre. What is beyond a face that is not exposed by less than `slack` [m] is
+/// inside.
 struct NearestFace {
   NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-              const Eigen::Vector3d& centre, double radius);
+              const Eigen::Vector3d& centre, double radius, double slack = 0);
 
   double distance = std::numeric_limits<double>::infinity();  ///< infinite: it sees none [m]
   bool inside = true;                                         ///< the cell

@@ -29,7 +29,8 @@ struct RigidContact {
   double mode = 0;           ///< its highest frequency^2, over k_n / m
   double dampingWeight = 0;  ///< the same for its dashpots, over eta_n / m
   double lone = 0;           ///< the weight of what acts at once, without levers
-  double balls = 0;          ///< weights of corners and spheres near
+  double balls = 0;          ///< weights of corners, edges and spheres near
+  double edges = 0;          ///< of them those of edges
   bool core = false;         ///< near
   std::uint32_t push = 0;    ///< while touching: into the pushes of this substep
   double exposed = 0;        ///< area of exposed faces when the weights were taken [m^2]
@@ -72,6 +73,8 @@ struct RigidState {
   double surplusNext = 0;                ///< second half step of RigidProxy::surplus [J]
   double mobility = 0;                   ///< sum over contacts of speed / impulse [1/kg]
   double rate = 0;                       ///< the same, times the stiffness of each [1/s^2]
+  double edgeRate = 0;                   ///< the same of edges alone, each point at all that it is near
+  double edgeMost = 0;                   ///< the most of it for one point of weight h [1/(m s^2)]
   ElementRates rates;                    ///< of the rigid body, all contacts touching
   std::vector<ContactLaw<double>> laws;  ///< by body
   CornerMemories corners;

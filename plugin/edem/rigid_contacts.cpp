@@ -1,13 +1,19 @@
 #include "edem/rigid_contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "edem/edge_points.h"
 #include "edem/fragment_motion.h"
 
 namespace rubble::edem {
 namespace {
+
+// A point of an edge stays with the cell that it was in until it is deeper in another by this, over h. Points
+// lie on the borders of cells by rows, and where two cells tremble each change of cells would tell.
+constexpr double kStays = 0.01;
 
 RigidPose poseNow(const RigidProxy& proxy) {
   return {proxy.position, proxy.velocity, proxy.spin, proxy.orientation};
@@ -101,6 +107,8 @@ double RigidContacts<Real>::endContactsOf(std::uint32_t id) {
     energy += k.memory.energy;
     return true;
   });
+  // It may come back under the same name, elsewhere.
+  for (RigidState& state : m_states) state.corners.forget(id);
   m_elastic -= energy;
   return energy;
 }
@@ -175,7 +183,9 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
     candidate.element = i;
     if (body.cells) {
       const Eigen::Vector3d at = proxy.orientation.conjugate() * (x - proxy.position);
-      candidate.balls = ballWeights(proxy, at, body.cells->reach[i] + away(lists));
+      const double size = body.cells->reach[i];
+      candidate.edges = edgeWeights(proxy, *body.cells, at, size, size + away(lists));
+      candidate.balls = candidate.edges + ballWeights(proxy, at, size + away(lists));
       candidate.core = distance < body.cells->core[i] + away(lists);
     }
     remember(candidate);
@@ -226,9 +236,10 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
     }
   }
   if (same && !m_contacts.empty()) return;
-  for (RigidState& s : m_states) s.mobility = s.rate = 0;
+  for (RigidState& s : m_states) s.mobility = s.rate = s.edgeRate = s.edgeMost = 0;
   for (const RigidContact& c : m_contacts)
     addMobility(c, *bodies[c.body], m_proxies[c.proxy], m_states[c.proxy]);
+  for (std::size_t p = 0; p < m_proxies.size(); ++p) addEdges(m_proxies[p], m_states[p]);
   soften(std::numeric_limits<double>::infinity());
 }
 
@@ -274,7 +285,12 @@ void RigidContacts<Real>::findAllCorners(Bodies bodies, CornerHits& corners) {
   for (const RigidContact& c : m_contacts) {
     if (!bodies[c.body]->cells || !(c.balls > 0)) continue;
     findCorners(*bodies[c.body], c.element, m_proxies[c.proxy], m_faces);
-    corners.add(c.proxy, placeOf(c), m_faces.hits());
+    const Body<Real>& body = *bodies[c.body];
+    const double favour = kStays * std::sqrt(body.cells->unit);
+    corners.add(c.proxy, placeOf(c), m_faces.hits(), [&](const FaceHit& hit) {
+      return hit.corner.edge != 0 && m_states[c.proxy].corners.wasIn(hit.corner, body.id, c.element) ? favour
+                                                                                                     : 0;
+    });
   }
   corners.settle();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/edge_points.h"
 #include "edem/rigid_touch.h"
 
 namespace rubble::edem {
@@ -18,6 +19,22 @@ constexpr double kLightBodyRate = 4;
 double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
   const Eigen::Matrix<double, 6, 6> square = matrix * matrix, fourth = square * square;
   return std::pow(fourth.squaredNorm(), 0.125);
+}
+
+// Bound of what an impulse of 1 at a point of a rigid body moves that point by [1/kg]: 1/m + n.([r]^T I^-1
+// [r]) n for the worst n. The point is one of the body's, and within `size` of `from`, world axes about its
+// centre.
+double mobilityAt(const RigidProxy& proxy, const Eigen::Vector3d& from, double size) {
+  const Eigen::Vector3d& turns = proxy.inverseInertia;
+  const double reach = proxy.reach(), lever2 = std::min(from.squaredNorm(), reach * reach);
+  // What is long and narrow turns easily about its axis alone, and near it: by the trace of that matrix.
+  Eigen::AlignedBox3d all;
+  for (const Collider& part : proxy.parts) all.extend(part.bounds());
+  const Eigen::Vector3d at = proxy.orientation.conjugate() * from,
+                        furthest = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs());
+  const Eigen::Vector3d r2 = (at.cwiseAbs().array() + size).matrix().cwiseMin(furthest).cwiseAbs2();
+  const double trace = turns.dot(Eigen::Vector3d::Constant(r2.sum()) - r2);
+  return proxy.inverseMass + std::min(lever2 * turns.maxCoeff(), trace);
 }
 
 }  // namespace
@@ -78,11 +95,18 @@ template <class Real>
 void addMobility(const RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, RigidState& state) {
   if (!(c.weight > 0) || !proxy.isDynamic()) return;
   const Eigen::Vector3d x = body.origin + body.position[c.element];
-  // It touches the body at one of the body's points.
-  const double reach = proxy.reach(), lever2 = std::min((x - proxy.position).squaredNorm(), reach * reach);
-  const double mobility = proxy.inverseMass + lever2 * proxy.inverseInertia.maxCoeff();
+  const double mobility =
+      mobilityAt(proxy, x - proxy.position, body.cells ? body.cells->reach[c.element] : double(body.radius));
   state.mobility += mobility;
-  state.rate += c.weight * mobility * body.contact.stiffness;
+  state.rate += (c.weight - c.edges) * mobility * body.contact.stiffness;
+  if (!(c.edges > 0)) return;
+  const double rate = mobility * body.contact.stiffness;
+  state.edgeRate += c.edges * rate;
+  state.edgeMost = std::max(state.edgeMost, rate / std::sqrt(body.cells->unit));
+}
+
+void addEdges(const RigidProxy& proxy, RigidState& state) {
+  if (state.edgeRate > 0) state.rate += std::min(state.edgeRate, edgeWeight(proxy) * state.edgeMost);
 }
 
 void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2,

@@ -25,6 +25,15 @@ std::vector<std::uint8_t> springsOf(const DestructibleBody& body) {
   return {intact.begin(), intact.end()};
 }
 
+// Of the distances to the first element; a body that moves without bending has none.
+double largestStretch(const std::vector<ElementPose>& from, const std::vector<ElementPose>& to) {
+  double most = 0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    most = std::max(most, std::abs(double((to[i].position - to[0].position).norm()) -
+                                   double((from[i].position - from[0].position).norm())));
+  return most;
+}
+
 // A crate of 10 kg that falls 0.3 m onto a slab cracks it, in one piece. It goes back, sleeps and is struck
 // again: with the same cracks, in the same shape, from which nothing pushes it.
 TEST(Regime, ACrackedSlabInOnePieceGoesBackWithItsCracks) {
@@ -49,7 +58,9 @@ TEST(Regime, ACrackedSlabInOnePieceGoesBackWithItsCracks) {
     }
     EXPECT_TRUE(slab->isAsleep());
     EXPECT_FALSE(crate->isActive());
-    EXPECT_LT(largestJump(lay, posesOf(*slab)), 1e-3);
+    // The blow shoves it aside: with the crate's aim the way wanders between 0.1 and 1.3 mm.
+    EXPECT_LT(largestJump(lay, posesOf(*slab)), 2e-3);
+    EXPECT_LT(largestStretch(lay, posesOf(*slab)), 1e-4);
 
     const double error = w.destruction->ledger().energyError;
     w.destruction->strike(slab);
