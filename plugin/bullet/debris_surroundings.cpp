@@ -13,8 +13,40 @@ namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 namespace {
 
-constexpr double kTouch = 1e-5;    // nearer than this is a touch [m]
-constexpr int kMostAdvances = 32;  // a grazing sweep converges slowly; what is left then is no touch
+constexpr double kTouch = 1e-5;  // nearer than this is a touch [m]
+// A grazing sweep converges slowly. What is left then is no touch, but with a thin thing, which would be
+// passed.
+constexpr int kMostAdvances = 32;
+
+// First touch of a ball with something convex, before that in `hit`. Conservative advancement: no part of it
+// is nearer than nearest(place).distance.
+template <class Nearest>
+bool advanceTo(Nearest&& nearest, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+               bool thin, debris::DebrisHit& hit) {
+  const Eigen::Vector3d way = to - from;
+  const double length = way.norm();
+  double t = 0;
+  for (int n = 1; n <= kMostAdvances && t <= hit.fraction; ++n) {
+    const Eigen::Vector3d at = from + t * way;
+    const edem::SurfacePoint s = nearest(at);
+    const double gap = s.distance - radius;
+    if (gap <= kTouch || (thin && n == kMostAdvances)) {
+      if (way.dot(s.normal) > 0) return false;  // leaving
+      hit.fraction = t;
+      hit.normal = s.normal;
+      hit.point = at - s.distance * s.normal;
+      return true;
+    }
+    if (!(length > 0)) return false;
+    t += gap / length;
+    if (t > 1) return false;
+  }
+  return false;
+}
+
+Eigen::Isometry3d placeOf(const edem::RigidProxy& proxy) {
+  return Eigen::Translation3d(proxy.position) * proxy.orientation;
+}
 
 }  // namespace
 
@@ -33,16 +65,16 @@ void DebrisSurroundings::begin(const Eigen::AlignedBox3d& swept) {
     }
     btVector3 a, b;
     object.getCollisionShape()->getAabb(object.getWorldTransform(), a, b);
-    if (object.hasContactResponse() && TestAabbAgainstAabb2(low, high, a, b)) addObject(object);
+    if (object.hasContactResponse() && TestAabbAgainstAabb2(low, high, a, b)) addObject(object, swept);
   }
   m_all.assign(m_centres.size(), 1);
   if (!m_centres.empty()) m_grid.build(m_centres, m_all, 2 * m_largest);
 }
 
-void DebrisSurroundings::addObject(btCollisionObject& object) {
+void DebrisSurroundings::addObject(btCollisionObject& object, const Eigen::AlignedBox3d& swept) {
   Object o;
   o.object = &object;
-  o.proxy = m_proxies.make(object);
+  o.proxy = m_proxies.make(object, std::span(&swept, 1));
   if (o.proxy.parts.empty()) return;
   o.rigid = o.proxy.isDynamic() ? btRigidBody::upcast(&object) : nullptr;
   o.bounds = o.proxy.bounds();
@@ -126,29 +158,57 @@ bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d
   path.max().array() += radius;
   if (!path.intersects(object.bounds)) return false;
   const edem::RigidProxy& proxy = object.proxy;
-  const Eigen::Quaterniond back = proxy.orientation.conjugate();
-  const double length = (to - from).norm();
+  const Eigen::Isometry3d place = placeOf(proxy);
   bool found = false;
   for (const edem::Collider& part : proxy.parts) {
-    // Conservative advancement: no part of a convex surface is nearer than its signed distance.
-    double t = 0;
-    for (int n = 0; n < kMostAdvances && t <= hit.fraction; ++n) {
-      const Eigen::Vector3d at = from + t * (to - from);
-      const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position));
-      const Eigen::Vector3d normal = proxy.orientation * s.normal;
-      const double gap = s.distance - radius;
-      if (gap <= kTouch) {
-        if ((to - from).dot(normal) > 0) break;  // leaving
-        hit.fraction = t;
-        hit.normal = normal;
-        hit.point = at - s.distance * normal;
-        hit.surface = object.surface;
-        found = true;
-        break;
-      }
-      if (!(length > 0)) break;
-      t += gap / length;
-      if (t > 1) break;
+    if (part.kind == edem::Collider::Kind::Mesh) {
+      found = sweepMesh(part, place * part.place, from, to, radius, hit) || found;
+      continue;
+    }
+    const Eigen::Isometry3d back = place.inverse(Eigen::Isometry);
+    const auto nearest = [&](const Eigen::Vector3d& at) {
+      edem::SurfacePoint s = edem::nearest(part, back * at);
+      s.normal = place.linear() * s.normal;
+      return s;
+    };
+    found = advanceTo(nearest, from, to, radius, false, hit) || found;
+  }
+  if (found) hit.surface = object.surface;
+  return found;
+}
+
+// Triangle by triangle: what leaves one may run into the next.
+bool DebrisSurroundings::sweepMesh(const edem::Collider& part, const Eigen::Isometry3d& place,
+                                   const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+                                   debris::DebrisHit& hit) const {
+  const edem::TriangleMesh& mesh = *part.mesh;
+  const Eigen::Isometry3d back = place.inverse(Eigen::Isometry);
+  const double grown = radius + part.rounding;
+  mesh.gather(back * (0.5 * (from + to)), 0.5 * (to - from).norm() + grown + kTouch, m_triangles);
+  bool found = false;
+  for (const std::uint32_t triangle : m_triangles) {
+    const auto nearest = [&](const Eigen::Vector3d& at) {
+      const edem::MeshPoint p = mesh.nearest(triangle, back * at);
+      const Eigen::Vector3d normal =
+          p.distance > 0 ? Eigen::Vector3d((back * at - p.at) / p.distance) : mesh.normal(triangle);
+      return edem::SurfacePoint{p.distance - part.rounding, place.linear() * normal};
+    };
+    found = advanceTo(nearest, from, to, radius, true, hit) || found;
+  }
+  return found;
+}
+
+bool DebrisSurroundings::sweepThin(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+                                   debris::DebrisHit& hit) {
+  hit.fraction = 1;
+  bool found = false;
+  for (const Object& object : m_objects) {
+    for (const edem::Collider& part : object.proxy.parts) {
+      if (part.kind != edem::Collider::Kind::Mesh ||
+          !sweepMesh(part, placeOf(object.proxy) * part.place, from, to, radius, hit))
+        continue;
+      hit.surface = object.surface;
+      found = true;
     }
   }
   return found;

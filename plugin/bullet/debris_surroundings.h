@@ -36,6 +36,8 @@ class DebrisSurroundings : public debris::DebrisCollider {
   void noteSupport(std::uint32_t id) override;
   bool sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
              debris::DebrisHit& hit) override;
+  bool sweepThin(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+                 debris::DebrisHit& hit) override;
 
   /// Gives Bullet's bodies and the elements what debris did to them in the last step.
   ElementPush push(std::span<const debris::SurfaceImpulse> impulses);
@@ -64,11 +66,13 @@ class DebrisSurroundings : public debris::DebrisCollider {
     bool isElement;
   };
 
-  void addObject(btCollisionObject& object);
+  void addObject(btCollisionObject& object, const Eigen::AlignedBox3d& swept);
   void addElements(DestructibleBody& body, const Eigen::AlignedBox3d& swept);
   std::uint32_t firstSurfaceOf(std::uint32_t body, std::size_t elements);
   bool sweepObject(const Object& object, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                    double radius, debris::DebrisHit& hit) const;
+  bool sweepMesh(const edem::Collider& part, const Eigen::Isometry3d& place, const Eigen::Vector3d& from,
+                 const Eigen::Vector3d& to, double radius, debris::DebrisHit& hit) const;
   bool sweepElement(std::uint32_t ball, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                     debris::DebrisHit& hit) const;
 
@@ -89,6 +93,7 @@ class DebrisSurroundings : public debris::DebrisCollider {
   edem::Grid<double> m_grid;
   double m_largest = 0;  // radius of the element balls [m]
   std::vector<std::uint32_t> m_near;
+  mutable std::vector<std::uint32_t> m_triangles;  // near a sweep
 };
 
 RUBBLE_ABI_END

@@ -49,7 +49,10 @@ void keepFour(std::vector<Near>& points) {
 std::vector<Near> nearSpheres(const DestructibleBody& own, const btCollisionObject& other, double margin) {
   std::vector<Near> points;
   Destruction::Impl& world = *own.impl().world;
-  const edem::RigidProxy proxy = world.proxyMaker.make(other);
+  Eigen::AlignedBox3d reached = own.impl().shape->box();
+  reached.min().array() -= margin;
+  reached.max().array() += margin;
+  const edem::RigidProxy proxy = world.proxyMaker.make(other, std::span(&reached, 1));
   const edem::Solver& solver = *world.solver;
   const double radius = solver.radius(own.id());
   Eigen::AlignedBox3d box = proxy.bounds();
@@ -60,7 +63,7 @@ std::vector<Near> nearSpheres(const DestructibleBody& own, const btCollisionObje
     const Eigen::Vector3d at = solver.position(own.id(), i);
     if (!box.contains(at)) continue;
     for (const edem::Collider& part : proxy.parts) {
-      const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position));
+      const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position), radius + margin);
       if (s.distance - radius > margin) continue;
       const Eigen::Vector3d normal = proxy.orientation * s.normal;
       points.push_back({at - s.distance * normal, normal, s.distance - radius});

@@ -29,6 +29,10 @@ void ElementShape::refit(double travel) {
   m_high = toBullet(box.max() + grow);
 }
 
+Eigen::AlignedBox3d ElementShape::box() const {
+  return {toEigen(m_low), toEigen(m_high)};
+}
+
 void ElementShape::getAabb(const btTransform&, btVector3& low, btVector3& high) const {
   low = m_low;
   high = m_high;

@@ -34,6 +34,8 @@ class ElementShape : public btConcaveShape {
   std::vector<std::uint32_t> elementsNear(const btVector3& low, const btVector3& high) const {
     return m_tree.in(low, high);
   }
+  /// Bounds of the elements and of what they may travel, in the world [m].
+  Eigen::AlignedBox3d box() const;
   /// While Bullet moves things itself the shape answers no sweep: its own continuous collision would hold a
   /// ball in the air that our contacts have let through.
   void setHidden(bool hidden) { m_hidden = hidden; }

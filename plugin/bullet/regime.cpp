@@ -57,6 +57,14 @@ struct Sweep {
   }
 };
 
+// Of a whole body whose elements may stand out of its shape by their radius.
+Eigen::AlignedBox3d reachedBox(const DestructibleBody& body, double way) {
+  btVector3 low, high;
+  body.getCollisionShape()->getAabb(body.getWorldTransform(), low, high);
+  const Eigen::Vector3d grow = Eigen::Vector3d::Constant(way + 2 * body.asset()->radius);
+  return {toEigen(low) - grow, toEigen(high) + grow};
+}
+
 }  // namespace
 
 void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef) {
@@ -100,8 +108,9 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
   }
   if (!(bound > least) || !bullet::mayTouch(world, body, other)) return false;
   placeWhole(body);
-  if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body), least, dt);
-  const edem::RigidProxy partner = blowMaker.make(other);
+  if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body, {}), least, dt);
+  const Eigen::AlignedBox3d reached = reachedBox(body, bound * dt);
+  const edem::RigidProxy partner = blowMaker.make(other, std::span(&reached, 1));
   const bullet::RigidMotion own{toEigen(body.getWorldTransform().getOrigin()),
                                 toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity())};
   return !partner.parts.empty() && bullet::strikes(*solver, body.id(), own, partner, least, dt);

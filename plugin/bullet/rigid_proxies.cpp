@@ -197,7 +197,22 @@ bool RigidProxies::addSolid(const btCollisionShape& shape, edem::Collider c,
   }
 }
 
-void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place,
+// One part for each box: where two of them have a triangle, the deeper counts.
+void RigidProxies::addTriangles(const btConcaveShape& shape, edem::Collider c, const Asked& asked,
+                                std::vector<edem::Collider>& parts) {
+  c.kind = edem::Collider::Kind::Mesh;
+  c.rounding = double(shape.getMargin());
+  const Eigen::Isometry3d back = (asked.body * c.place).inverse(Eigen::Isometry);
+  for (const Eigen::AlignedBox3d& box : asked.boxes) {
+    const Eigen::Vector3d half = back.linear().cwiseAbs() * (0.5 * box.sizes()) +
+                                 Eigen::Vector3d::Constant(c.rounding),
+                          middle = back * box.center();
+    c.mesh = m_meshes.of(shape, {middle - half, middle + half});
+    if (c.mesh) parts.push_back(c);
+  }
+}
+
+void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry3d& place, const Asked& asked,
                             std::vector<edem::Collider>& parts) {
   edem::Collider c;
   c.place = place;
@@ -215,7 +230,7 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
     case COMPOUND_SHAPE_PROXYTYPE: {
       const auto& compound = static_cast<const btCompoundShape&>(shape);
       for (int i = 0; i < compound.getNumChildShapes(); ++i)
-        addShape(*compound.getChildShape(i), place * toEigen(compound.getChildTransform(i)), parts);
+        addShape(*compound.getChildShape(i), place * toEigen(compound.getChildTransform(i)), asked, parts);
       return;
     }
     case CONVEX_HULL_SHAPE_PROXYTYPE: {
@@ -225,6 +240,8 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
       break;
     }
     default:
+      if (shape.isConcave() && shape.getShapeType() != EMPTY_SHAPE_PROXYTYPE)
+        return addTriangles(static_cast<const btConcaveShape&>(shape), c, asked, parts);
       if (!shape.isConvex()) break;
       // Any other convex shape by the 42 directions of Bullet's own hull of it, margin included.
       btShapeHull sampled(static_cast<const btConvexShape*>(&shape));
@@ -241,7 +258,11 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
       return;
     }
   }
-  // Once for each kind, and once more for the first of it that has no volume.
+  refuse(shape);
+}
+
+// Once for each kind, and once more for the first of it that has no volume.
+void RigidProxies::refuse(const btCollisionShape& shape) {
   const bool flat = shape.isConvex();
   const int type = 2 * shape.getShapeType() + (flat ? 1 : 0);
   if (std::find(m_refused.begin(), m_refused.end(), type) != m_refused.end()) return;
@@ -251,10 +272,11 @@ void RigidProxies::addShape(const btCollisionShape& shape, const Eigen::Isometry
                                  " does not touch destructible bodies: " +
                                  (flat ? "it has no volume (its points lie in a plane, on a line or on one "
                                          "place); give it thickness"
-                                       : "only convex shapes, planes and compounds of them do"));
+                                       : "it is none of Bullet's convex or concave shapes"));
 }
 
-edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
+edem::RigidProxy RigidProxies::make(const btCollisionObject& object,
+                                    std::span<const Eigen::AlignedBox3d> boxes) {
   edem::RigidProxy proxy;
   proxy.position = toEigen(object.getWorldTransform().getOrigin());
   proxy.orientation = toEigen(object.getWorldTransform().getRotation()).normalized();
@@ -278,7 +300,9 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object) {
         toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
   }
   if (isFinite(proxy)) {
-    addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), proxy.parts);
+    Eigen::Isometry3d body(proxy.orientation);
+    body.pretranslate(proxy.position);
+    addShape(*object.getCollisionShape(), Eigen::Isometry3d::Identity(), {body, boxes}, proxy.parts);
   } else if (m_log && !std::exchange(m_toldOfNumbers, true)) {
     m_log(LogLevel::Warning,
           "a rigid body's place, velocity or forces are not finite numbers: it does not touch destructible "

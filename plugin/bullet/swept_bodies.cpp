@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet/body_impl.h"
+#include "bullet/convert.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -71,6 +72,30 @@ bool mayTouch(btCollisionWorld& world, DestructibleBody& body, btCollisionObject
   return world.getPairCache()->needsBroadphaseCollision(body.getBroadphaseHandle(),
                                                         object.getBroadphaseHandle()) &&
          world.getDispatcher()->needsCollision(&body, &object);
+}
+
+std::vector<Eigen::AlignedBox3d> reachedBoxes(std::span<DestructibleBody* const> bodies, double dt) {
+  const double reach = kRebound * fastestNear(bodies, dt) * dt;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (DestructibleBody* body : bodies) {
+    if (!body->isActive()) continue;
+    const DestructibleBody::Impl& own = body->impl();
+    Eigen::AlignedBox3d box = own.shape->box();
+    box.min().array() -= reach + own.shape->margin();
+    box.max().array() += reach + own.shape->margin();
+    // A union may meet one that none of its parts did.
+    for (auto other = boxes.begin(); other != boxes.end();) {
+      if (!other->intersects(box)) {
+        ++other;
+        continue;
+      }
+      box.extend(*other);
+      boxes.erase(other);
+      other = boxes.begin();
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
 void addSwept(btCollisionWorld& world, std::span<DestructibleBody* const> bodies, double dt) {

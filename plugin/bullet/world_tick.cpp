@@ -166,13 +166,14 @@ DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
 void Destruction::Impl::gatherProxies(double dt) {
   BT_PROFILE("Rubble gather proxies");
   bullet::addSwept(world, bodies, dt);
+  const std::vector<Eigen::AlignedBox3d> boxes = bullet::reachedBoxes(bodies, dt);
   touched.clear();
   proxies.clear();
   for (DestructibleBody* body : bodies) {
     for (btCollisionObject* object : body->impl().near) {
       const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
       if (upcastElements(object) || std::any_of(touched.begin(), touched.end(), known)) continue;
-      edem::RigidProxy proxy = proxyMaker.make(*object);
+      edem::RigidProxy proxy = proxyMaker.make(*object, boxes);
       if (proxy.parts.empty()) continue;
       bullet::TouchedBody t;
       t.object = object;

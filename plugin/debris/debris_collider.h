@@ -57,6 +57,13 @@ class DebrisCollider {
   /// touched at fraction 0, unless (to - from) . normal > 0: a ball that leaves is not held.
   virtual bool sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                      DebrisHit& hit) = 0;
+
+  /// The same for surfaces alone that have no inside, as a terrain: what comes beyond them is not put back.
+  virtual bool sweepThin(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
+                         DebrisHit& hit) {
+    static_cast<void>(from), static_cast<void>(to), static_cast<void>(radius), static_cast<void>(hit);
+    return false;
+  }
 };
 
 }  // namespace rubble::debris

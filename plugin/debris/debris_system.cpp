@@ -89,7 +89,8 @@ void DebrisSystem::addOne(const DebrisParcel& parcel) {
                          .stillTime = 0,
                          .support = kFixedSurface,
                          .supports = {},
-                         .touched = false});
+                         .touched = false,
+                         .offset = parcel.offset});
   m_pieces.push_back({.position = parcel.position.cast<float>(),
                       .velocity = parcel.velocity.cast<float>(),
                       .orientation = parcel.orientation.cast<float>(),
@@ -140,7 +141,7 @@ void DebrisSystem::beginStep(double dt, const Eigen::Vector3d& gravity, DebrisCo
   for (std::uint32_t index = m_moving.first; index != kNone; index = m_links[index].next) {
     const Particle& p = m_particles[index];
     const Eigen::Vector3d reach =
-        Eigen::Vector3d::Constant(p.velocity.norm() * dt + fall + p.collisionRadius);
+        Eigen::Vector3d::Constant(p.velocity.norm() * dt + fall + p.collisionRadius + p.offset.norm());
     swept.extend(p.position - reach);
     swept.extend(p.position + reach);
   }

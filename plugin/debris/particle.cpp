@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "debris/contact.h"
 #include "rubble/error.h"
@@ -41,9 +42,18 @@ bool findHit(const Particle& p, const Eigen::Vector3d& way, const StepInput& inp
   return way.dot(hit.normal) <= 0;
 }
 
-// From here to where the hit sets the ball down. A ball that overlapped the surface is put outside by it.
-Eigen::Vector3d wayToHit(const Particle& p, const DebrisHit& hit) {
-  return hit.point + (p.collisionRadius + kGap) * hit.normal - p.position;
+// From here to where the hit sets the ball down. A ball that overlapped the surface is put outside by it, but
+// not through a thin one: what lies on a terrain under a boulder stays above it.
+Eigen::Vector3d wayToHit(const Particle& p, const DebrisHit& hit, const StepInput& input) {
+  const auto wayTo = [&p](const DebrisHit& h) -> Eigen::Vector3d {
+    return h.point + (p.collisionRadius + kGap) * h.normal - p.position;
+  };
+  const Eigen::Vector3d way = wayTo(hit);
+  const bool isPutOut = hit.fraction <= 0;
+  DebrisHit thin;
+  const bool isHeld =
+      isPutOut && input.collider->sweepThin(p.position, p.position + way, p.collisionRadius, thin);
+  return isHeld ? wayTo(thin) : way;
 }
 
 // Books a change of the piece's motion by contact, and gives the surface what the piece lost.
@@ -115,10 +125,22 @@ void slide(Particle& p, const DebrisHit& floor, double time, double rate, const 
 
   DebrisHit wall;
   const bool blocked = findHit(p, flight.displacement, input, books, wall);
-  if (blocked) flight.displacement = wayToHit(p, wall);
+  if (blocked) flight.displacement = wayToHit(p, wall, input);
   const Impulse flown = coast(p, flight, time, input, *books.exchange);
   hitSurface(p, floor, 0, flown, books);
   if (blocked) hitSurface(p, wall, input.restitution, {}, books);
+}
+
+// A piece begins where it was inside its element, of which a part may have been beyond a thin surface.
+void begin(Particle& p, const StepInput& input, const StepBooks& books) {
+  const Eigen::Vector3d offset = std::exchange(p.offset, Eigen::Vector3d::Zero());
+  DebrisHit hit;
+  if (offset.isZero(0) || !input.collider->sweepThin(p.position - offset, p.position, p.collisionRadius, hit))
+    return;
+  checkHit(hit, books.surfaces->count());
+  const Motion before = motionOf(p);
+  p.position = hit.point + (p.collisionRadius + kGap) * hit.normal;
+  bookContact(hit.surface, changeOf(before, motionOf(p)), books);
 }
 
 }  // namespace
@@ -132,6 +154,7 @@ void Supports::add(std::uint32_t id) {
 
 void advance(Particle& p, const StepInput& input, const StepBooks& books) {
   p.touched = false;
+  begin(p, input, books);
   const double slowest = kBounceSteps * input.gravity.norm() * input.dt;
   double left = input.dt;
   for (int hits = 0; hits < kMaxHits && left > 0; ++hits) {
@@ -145,7 +168,7 @@ void advance(Particle& p, const StepInput& input, const StepBooks& books) {
     }
     const double time = hit.fraction * left;
     Flight until = fly(p.velocity, input.gravity, rate, time);
-    until.displacement = wayToHit(p, hit);
+    until.displacement = wayToHit(p, hit, input);
     const Impulse flown = coast(p, until, time, input, *books.exchange);
     const Eigen::Vector3d surface = books.surfaces->of(hit.surface).velocityAt(p.position);
     const double approach = (surface - p.velocity).dot(hit.normal);

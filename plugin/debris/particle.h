@@ -40,6 +40,7 @@ struct Particle {
   std::uint32_t support;    // surface last touched
   Supports supports;        // surfaces touched since it has been still
   bool touched;             // in the last step
+  Eigen::Vector3d offset;   // from where it was inside its element, until its first step [m]
 };
 
 /// What changed the motion of the debris.

@@ -186,6 +186,7 @@ void Spawner::scatterConserving(const base::CrushedElement& element, DebrisBatch
   for (std::size_t n = 0; n < batch.pieces.size(); ++n) {
     DebrisParcel& piece = batch.pieces[n];
     piece.position = element.centre + m_offsets[n];
+    piece.offset = m_offsets[n];
     piece.velocity = element.velocity + m_velocities[n];
     piece.spin = spin;
     piece.inertia = ownInertia * piece.mass / mass;

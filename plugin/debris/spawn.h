@@ -20,6 +20,7 @@ namespace rubble::debris {
 /// mass.
 struct DebrisParcel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();    ///< of it from the centre of its element [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< [rad/s]

@@ -73,7 +73,15 @@ SurfacePoint nearestOnHull(const Hull& hull, const Eigen::Vector3d& p) {
   return {distance, (p - best) / distance};
 }
 
-SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
+// Either side can be touched.
+SurfacePoint nearestOnMesh(const TriangleMesh& mesh, const Eigen::Vector3d& p, double reach) {
+  const MeshPoint near = mesh.nearest(p, reach);
+  if (!std::isfinite(near.distance)) return {kInfinity, Eigen::Vector3d::UnitY()};
+  return {near.distance,
+          near.distance > 0 ? Eigen::Vector3d((p - near.at) / near.distance) : mesh.normal(near.triangle)};
+}
+
+SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p, double reach) {
   switch (c.kind) {
     case Collider::Kind::Plane:
       assert(std::abs(c.size.squaredNorm() - 1) < 1e-6);  // Bullet normalises in float
@@ -88,6 +96,8 @@ SurfacePoint nearestLocal(const Collider& c, const Eigen::Vector3d& p) {
       return nearestOnCylinder(c.size.x(), c.size.y(), p);
     case Collider::Kind::Cone:
       return nearestOnCone(c.size.x(), c.size.y(), p);
+    case Collider::Kind::Mesh:
+      return nearestOnMesh(*c.mesh, p, reach);
     case Collider::Kind::Sphere:
       break;
   }
@@ -149,6 +159,9 @@ Eigen::AlignedBox3d Collider::bounds() const {
       for (const Hull::Face& face : hull->faces)
         for (const Eigen::Vector3d& v : face.vertices) local.extend(v);
       break;
+    case Kind::Mesh:
+      local = mesh->bounds();
+      break;
     case Kind::Capsule:
     case Kind::Cylinder:
     case Kind::Cone:
@@ -162,8 +175,9 @@ Eigen::AlignedBox3d Collider::bounds() const {
   return {centre - reach, centre + reach};
 }
 
-SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point) {
-  SurfacePoint s = nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point);
+SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point, double reach) {
+  SurfacePoint s = nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point,
+                                reach + collider.rounding);
   s.distance -= collider.rounding;
   s.normal = collider.place.linear() * s.normal;
   return s;

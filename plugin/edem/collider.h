@@ -1,10 +1,12 @@
-// The rigid surfaces that elements touch: plane, sphere, box, convex hull, capsule, cylinder, cone; signed
-// distance in closed form.
+// The rigid surfaces that elements touch: plane, sphere, box, convex hull, capsule, cylinder, cone, with
+// their signed distance in closed form; triangle meshes.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include "edem/triangle_mesh.h"
 #include "edem/types.h"
 
 namespace rubble::edem {
@@ -32,7 +34,7 @@ void listCorners(Hull& hull);
 
 /// A surface in its own frame, rounded by `rounding`.
 struct Collider {
-  enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull, Capsule, Cylinder, Cone };
+  enum class Kind : std::uint8_t { Plane, Sphere, Box, Hull, Capsule, Cylinder, Cone, Mesh };
   Kind kind = Kind::Sphere;
   /// Half extents of a box; x is a sphere's radius; a plane's normal. Solids of revolution stand along y:
   /// x is the radius, y half the length of a capsule's segment or half the height of the others, a cone's
@@ -41,6 +43,7 @@ struct Collider {
   double offset = 0;    ///< a plane's: normal . x [m]
   double rounding = 0;  ///< added all round, Bullet's collision margin [m]
   std::shared_ptr<const Hull> hull;
+  std::shared_ptr<const TriangleMesh> mesh;
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< in the frame of the rigid body
 
   /// Capsule, cylinder or cone.
@@ -50,11 +53,13 @@ struct Collider {
 
 /// Nearest point of a surface.
 struct SurfacePoint {
-  double distance;         ///< signed: negative inside [m]
+  double distance;         ///< signed: negative inside; a mesh has no inside [m]
   Eigen::Vector3d normal;  ///< unit, out of the surface
 };
 
-/// Signed distance of `point` (in the frame of the rigid body) and the outward normal there.
-SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point);
+/// Signed distance of `point` (in the frame of the rigid body) and the outward normal there. What is further
+/// than `reach` may be told as infinitely far, which is faster for meshes.
+SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point,
+                     double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace rubble::edem

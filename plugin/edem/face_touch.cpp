@@ -40,6 +40,7 @@ template <class Visit>
 void visitBalls(const Collider& part, Visit&& visit) {
   switch (part.kind) {
     case Collider::Kind::Plane:
+    case Collider::Kind::Mesh:
       return;
     case Collider::Kind::Sphere:
       visit(Eigen::Vector3d(part.place.translation()), part.size.x() + part.rounding, 1.0);
@@ -74,11 +75,15 @@ void visitBalls(const Collider& part, Visit&& visit) {
 double FaceTouch::approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach) {
   m_near.clear();
   m_nearest = {kInfinity, Eigen::Vector3d::UnitY()};
+  m_sideCount = 0;
   for (std::uint32_t p = 0; p < proxy.parts.size(); ++p) {
     const Collider& part = proxy.parts[p];
-    const SurfacePoint s = nearest(part, at);
+    const bool looks = part.kind == Collider::Kind::Mesh && std::isfinite(reach);
+    const SurfacePoint s = looks ? lookAtMesh(part, at, reach) : nearest(part, at);
     if (s.distance < m_nearest.distance) m_nearest = s;
-    if (s.distance < reach) m_near.push_back({&part, p, s, Eigen::Vector3d::Zero()});
+    if (s.distance >= reach) continue;
+    m_near.push_back({&part, p, s, Eigen::Vector3d::Zero(), m_sideCount});
+    if (looks) ++m_sideCount;
   }
   return m_nearest.distance;
 }
@@ -117,35 +122,71 @@ void FaceTouch::findCorners(const CellFaces& cells, const Exposure& exposure, st
   }
 }
 
+// Searches no further than an element with its centre at `at` reaches, at least to its core.
+SurfacePoint FaceTouch::lookAtMesh(const Collider& part, const Eigen::Vector3d& at, double reach) {
+  if (m_sideCount == m_sides.size()) m_sides.emplace_back();
+  MeshSide& side = m_sides[m_sideCount];
+  side.look(*part.mesh, part.place.inverse(Eigen::Isometry) * at, reach + part.rounding);
+  SurfacePoint s = side.centre();
+  s.distance -= part.rounding;
+  s.normal = part.place.linear() * s.normal;
+  return s;
+}
+
+SurfacePoint FaceTouch::nearestOf(const Near& near, const Eigen::Vector3d& point) const {
+  const Collider& part = *near.part;
+  if (part.kind != Collider::Kind::Mesh) return nearest(part, point);
+  const MeshSide& side = m_sides[near.side];
+  const Eigen::Vector3d local = part.place.inverse(Eigen::Isometry) * point;
+  if (!(part.rounding > 0) && !side.isBeyond(local)) return {0, Eigen::Vector3d::Zero()};  // not in it
+  SurfacePoint s = side.nearest(local);
+  s.distance -= part.rounding;
+  s.normal = part.place.linear() * s.normal;
+  return s;
+}
+
+Facing FaceTouch::facingOf(const Near& near, const Eigen::Vector3d& point,
+                           const Eigen::Vector3d& area) const {
+  const Collider& part = *near.part;
+  if (part.kind != Collider::Kind::Mesh) return facing(part, point, area);
+  const Eigen::Matrix3d& axes = part.place.linear();
+  Facing f = m_sides[near.side].facing(part.place.inverse(Eigen::Isometry) * point, axes.transpose() * area);
+  f.normal = axes * f.normal;
+  f.slope = axes * f.slope;
+  return f;
+}
+
 void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                            const ElementPose& pose) {
   for (const ExposedPoint& p : exposure.of(cells, element)) {
     FaceHit hit;
     hit.at = p.at;
-    const Collider* part = nullptr;
+    const Near* deepest = nullptr;
     for (const Near& n : m_near) {
       if (!pressesPoints(*n.part)) continue;
-      // Parts are convex: none lies above the plane at the point nearest to the element's centre.
-      const double above = n.normal.dot(p.at) + n.centre.distance;
+      // Parts are convex: none lies above the plane at the point nearest to the element's centre. A mesh has
+      // nothing nearer than that point.
+      const double above = n.part->kind == Collider::Kind::Mesh ? n.centre.distance - p.at.norm()
+                                                                : n.normal.dot(p.at) + n.centre.distance;
       if (-above <= hit.depth) continue;
       SurfacePoint s{above, n.normal};
       if (n.part->kind != Collider::Kind::Plane) {
-        s = nearest(*n.part, pose.at + pose.turn * p.at);
+        s = nearestOf(n, pose.at + pose.turn * p.at);
         s.normal = pose.turn.transpose() * s.normal;
       }
       if (-s.distance <= hit.depth) continue;
       hit.depth = -s.distance;
       hit.normal = s.normal;
-      part = n.part;
+      deepest = &n;
     }
     if (!(hit.depth > 0)) continue;
     const Eigen::Vector3d area = p.area / cells.unit;
     Eigen::Vector3d normal;
-    if (part->isRound()) {
-      normal = endNormal(*part, pose, p.at);
+    if (deepest->part->isRound()) {
+      normal = endNormal(*deepest->part, pose, p.at);
       hit.weight = -area.dot(normal);
     } else {
-      const Facing f = facing(*part, pose.at + pose.turn * p.at, pose.turn * area);
+      const Facing f = facingOf(*deepest, pose.at + pose.turn * p.at, pose.turn * area);
       normal = pose.turn.transpose() * f.normal;
       hit.weight = f.weight;
       hit.sliding = -(pose.turn.transpose() * f.slope);

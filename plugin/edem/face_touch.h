@@ -7,6 +7,7 @@
 #include "edem/cell_faces.h"
 #include "edem/collider.h"
 #include "edem/contact.h"
+#include "edem/mesh_side.h"
 #include "edem/rigid_proxy.h"
 #include "edem/round_touch.h"
 
@@ -47,7 +48,7 @@ class FaceTouch {
   /// of its parts [m]. Notes which parts are within `reach`.
   double approach(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach);
   /// The hits at those parts, but for their corners.
-  ///   - Points of exposed faces in planes, boxes, hulls, cylinders and cones.
+  ///   - Points of exposed faces in planes, boxes, hulls, cylinders and cones, and beyond meshes.
   ///   - Spheres and ends of capsules at the nearest point of the exposed faces.
   ///   - Edges of exposed faces across capsules, cylinders and cones.
   ///   - The element's core.
@@ -93,7 +94,13 @@ class FaceTouch {
     std::uint32_t index;     // of the part
     SurfacePoint centre;     // nearest to the element's centre, frame of the rigid body
     Eigen::Vector3d normal;  // of it, axes of the element
+    std::uint32_t side;      // of a mesh: into m_sides
   };
+  // Of a point in the frame of the rigid body.
+  SurfacePoint nearestOf(const Near& near, const Eigen::Vector3d& point) const;
+  Facing facingOf(const Near& near, const Eigen::Vector3d& point, const Eigen::Vector3d& area) const;
+
+  SurfacePoint lookAtMesh(const Collider& part, const Eigen::Vector3d& at, double reach);
 
   void findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                   const ElementPose& pose);
@@ -118,6 +125,8 @@ class FaceTouch {
 
   std::vector<Near> m_near;
   std::vector<FaceHit> m_hits;
+  std::vector<MeshSide> m_sides;  // of the meshes in m_near
+  std::uint32_t m_sideCount = 0;
   SurfacePoint m_nearest{0, Eigen::Vector3d::UnitY()};
 };
 

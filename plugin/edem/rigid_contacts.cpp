@@ -159,8 +159,9 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
     if (!body.alive[i]) return;
     if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
     const Eigen::Vector3d x = body.origin + body.position[i];
-    const double distance = nearest(proxy, x).distance;
-    if (distance < (body.cells ? body.cells->reach[i] + away(lists) : reach)) visit(i, x, distance);
+    const double near = body.cells ? body.cells->reach[i] + away(lists) : reach;
+    const double distance = nearest(proxy, x, near).distance;
+    if (distance < near) visit(i, x, distance);
   };
   const Vec3<double> low = box.min() - body.origin, high = box.max() - body.origin;
   if (own.grid.cellsIn(low, high) > double(body.elementCount())) {

@@ -26,11 +26,11 @@ double RigidProxy::reach() const {
   return furthest;
 }
 
-SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world) {
+SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world, double reach) {
   const Eigen::Vector3d local = proxy.orientation.conjugate() * (world - proxy.position);
   SurfacePoint best{std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitY()};
   for (const Collider& part : proxy.parts) {
-    const SurfacePoint s = nearest(part, local);
+    const SurfacePoint s = nearest(part, local, reach);
     if (s.distance < best.distance) best = s;
   }
   best.normal = proxy.orientation * best.normal;

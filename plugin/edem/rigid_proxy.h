@@ -46,7 +46,9 @@ struct RigidProxy {
   double reach() const;  ///< furthest point of its parts from the centre of mass [m]; planes count 0
 };
 
-/// The surface of all parts nearest to a place, world axes; infinitely far where there are none.
-SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world);
+/// The surface of all parts nearest to a place, world axes; infinitely far where there are none, and maybe
+/// where it is further than `reach`.
+SurfacePoint nearest(const RigidProxy& proxy, const Eigen::Vector3d& world,
+                     double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace rubble::edem

@@ -208,9 +208,8 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   out.x = body.origin + body.position[i];
   ElementPose pose;
   pose.at = proxy.orientation.conjugate() * (out.x - proxy.position);
-  const double reach = body.exposure.count[i] > 0 ? cells.reach[i] : 0;
-  const double distance = work.faces.approach(proxy, pose.at, reach);
-  if (distance >= std::max(reach, cells.core[i]) && !c.touching) {
+  const double reach = std::max(cells.core[i], body.exposure.count[i] > 0 ? cells.reach[i] : 0);
+  if (work.faces.approach(proxy, pose.at, reach) >= reach && !c.touching) {
     c.faces = {};
     return false;
   }

@@ -44,7 +44,7 @@ inline bool pressesPoints(const Collider& part) {
 
 /// Whether it has corners, a tip or rims to press cells with.
 inline bool hasCorners(const Collider& part) {
-  return pressesPoints(part) && part.kind != Collider::Kind::Plane;
+  return pressesPoints(part) && part.kind != Collider::Kind::Plane && part.kind != Collider::Kind::Mesh;
 }
 
 /// visit(face, from, to) for every edge of every exposed face of an element; one that two of them share comes
