@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 #include <string>
 
 #include "bullet/convert.h"
@@ -74,7 +75,7 @@ double depthIn(edem::Collider collider, const Eigen::Isometry3d& pose, const Ele
 }
 
 double depthIn(const btRigidBody& body, const Elements& object, bullet::RigidProxies& proxies) {
-  const edem::RigidProxy proxy = proxies.make(body);
+  const edem::RigidProxy proxy = proxies.make(body, std::span(&object.bounds, 1));
   if (!proxy.bounds().intersects(object.bounds)) return 0;
   const Eigen::Isometry3d pose = Eigen::Translation3d(proxy.position) * proxy.orientation;
   double deepest = 0;

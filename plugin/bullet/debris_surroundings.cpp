@@ -158,17 +158,16 @@ bool DebrisSurroundings::sweepObject(const Object& object, const Eigen::Vector3d
   path.max().array() += radius;
   if (!path.intersects(object.bounds)) return false;
   const edem::RigidProxy& proxy = object.proxy;
-  const Eigen::Isometry3d place = placeOf(proxy);
+  const Eigen::Quaterniond back = proxy.orientation.conjugate();
   bool found = false;
   for (const edem::Collider& part : proxy.parts) {
     if (part.kind == edem::Collider::Kind::Mesh) {
-      found = sweepMesh(part, place * part.place, from, to, radius, hit) || found;
+      found = sweepMesh(part, placeOf(proxy) * part.place, from, to, radius, hit) || found;
       continue;
     }
-    const Eigen::Isometry3d back = place.inverse(Eigen::Isometry);
     const auto nearest = [&](const Eigen::Vector3d& at) {
-      edem::SurfacePoint s = edem::nearest(part, back * at);
-      s.normal = place.linear() * s.normal;
+      edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position));
+      s.normal = proxy.orientation * s.normal;
       return s;
     };
     found = advanceTo(nearest, from, to, radius, false, hit) || found;

@@ -112,7 +112,8 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
   const Eigen::AlignedBox3d reached = reachedBox(body, bound * dt);
   const edem::RigidProxy partner = blowMaker.make(other, std::span(&reached, 1));
   const bullet::RigidMotion own{toEigen(body.getWorldTransform().getOrigin()),
-                                toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity())};
+                                toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity()),
+                                double(body.getInvMass()) * toEigen(body.getTotalForce())};
   return !partner.parts.empty() && bullet::strikes(*solver, body.id(), own, partner, least, dt);
 }
 

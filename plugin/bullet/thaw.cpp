@@ -13,11 +13,15 @@ constexpr double kStressShare = 0.5;
 // and in ways of this tick.
 constexpr double kReachRadii = 1.6, kReachWays = 1.2;
 
-// An element at x that nears the surface of `proxy` with the velocity `relative`.
+// An element at x that nears the surface of `proxy` with the velocity and the acceleration `relative`.
 bool reaches(const edem::RigidProxy& proxy, const Eigen::Vector3d& x, const Eigen::Vector3d& relative,
-             double radius, double least, double dt) {
+             const Eigen::Vector3d& acceleration, double radius, double least, double dt) {
   const edem::SurfacePoint s = edem::nearest(proxy, x);
-  const double closing = -relative.dot(s.normal);
+  const double speed = -relative.dot(s.normal), gained = std::max(0.0, -acceleration.dot(s.normal));
+  // What falls from rest is faster where it arrives; what rests already is not.
+  const double gap = std::max(0.0, s.distance - radius);
+  const double closing =
+      speed < 0 ? speed : std::min(speed + gained * dt, std::sqrt(speed * speed + 2 * gained * gap));
   return closing > least && s.distance - kReachRadii * radius < kReachWays * closing * dt;
 }
 
@@ -36,7 +40,9 @@ bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& 
     const double light = partner.inverseMass * 2 * view.mass[i];  // over the partner's mass
     const double least = strikingSpeed * std::sqrt(std::max(1.0, light));
     const Eigen::Vector3d x = solver.position(body, i);
-    if (reaches(partner, x, own.at(x) - other.at(x), radius, least, dt)) return true;
+    if (reaches(partner, x, own.at(x) - other.at(x), own.acceleration - partner.acceleration, radius, least,
+                dt))
+      return true;
   }
   return false;
 }
@@ -49,7 +55,9 @@ bool elementsStrike(const edem::Solver& solver, std::uint32_t striking, const ed
   for (std::size_t i = 0; i < view.alive.size(); ++i) {
     if (!view.alive[i]) continue;
     const Eigen::Vector3d x = solver.position(striking, i);
-    if (reaches(own, x, solver.velocity(striking, i) - motion.at(x), radius, strikingSpeed, dt)) return true;
+    if (reaches(own, x, solver.velocity(striking, i) - motion.at(x), Eigen::Vector3d::Zero(), radius,
+                strikingSpeed, dt))
+      return true;
   }
   return false;
 }

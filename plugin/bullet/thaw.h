@@ -13,6 +13,7 @@ RUBBLE_ABI_BEGIN
 struct RigidMotion {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();                                    ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();  ///< [m/s], [rad/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< of the centre, by forces [m/s^2]
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return velocity + spin.cross(x - centre); }
 };
 
@@ -20,7 +21,8 @@ struct RigidMotion {
 /// tensile strength.
 double strikingSpeed(const Material& material);
 
-/// Whether something at `partner`'s surface strikes one of the elements within `dt` hard enough. A light
+/// Whether something at `partner`'s surface strikes one of the elements within `dt` hard enough, forces on
+/// the way there included. A light
 /// partner gives less: what it does is over before sound has crossed an element.
 bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& own,
              const edem::RigidProxy& partner, double strikingSpeed, double dt);

@@ -176,8 +176,8 @@ Eigen::AlignedBox3d Collider::bounds() const {
 }
 
 SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point, double reach) {
-  SurfacePoint s = nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point,
-                                reach + collider.rounding);
+  SurfacePoint s =
+      nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point, reach + collider.rounding);
   s.distance -= collider.rounding;
   s.normal = collider.place.linear() * s.normal;
   return s;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "edem/edge_points.h"
 #include "edem/rigid_touch.h"
@@ -55,8 +56,7 @@ void weighFaces(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy
   if (!(c.exposed > 0)) return;
   add(c.balls, cells.reach[i] * cells.reach[i]);
   const ElementPose pose = poseOf(body, i, proxy);
-  // It is listed when nearer than that, and weighed anew with the lists.
-  faces.approach(proxy, pose.at, cells.reach[i] + double(body.radius));
+  faces.approach(proxy, pose.at, std::numeric_limits<double>::infinity());
   // Stiffness of the points against shifts and turns of the element, for a mass and an inertia of 1.
   Eigen::Matrix<double, 6, 6> stiff = Eigen::Matrix<double, 6, 6>::Zero(), damped = stiff;
   double pressed = 0;

@@ -38,8 +38,7 @@ class TriangleMesh {
 
   /// Nearest of all triangles; of those that are equally near the one that most faces `to`. Its distance is
   /// infinite where none is within `reach`.
-  MeshPoint nearest(const Eigen::Vector3d& to,
-                    double reach = std::numeric_limits<double>::infinity()) const;
+  MeshPoint nearest(const Eigen::Vector3d& to, double reach = std::numeric_limits<double>::infinity()) const;
   /// Of those given, by the same rule.
   MeshPoint nearest(std::span<const std::uint32_t> triangles, const Eigen::Vector3d& to) const;
   /// The triangles within `reach` of a place, rising.

@@ -34,7 +34,7 @@ struct Ground {
     heights.fill(0);
   }
   btTriangleMesh mesh;
-  std::array<float, (kSquares + 1) * (kSquares + 1)> heights;
+  std::array<btScalar, (kSquares + 1) * (kSquares + 1)> heights;  // which Bullet calls PHY_FLOAT
 };
 
 // 2 x 2 x 2 cubes of 0.1 m, of explicit elements.
@@ -182,7 +182,7 @@ TEST(MeshGround, NothingCreepsDownASlope) {
 // Application changes the heights: what lay on a hill falls.
 TEST(MeshGround, FollowsHeightsThatChange) {
   Ground ground;
-  ground.heights.fill(0.5f);
+  ground.heights.fill(btScalar(0.5));
   btHeightfieldTerrainShape heights(kSquares + 1, kSquares + 1, ground.heights.data(), 1, -1, 1, 1, PHY_FLOAT,
                                     false);
   heights.setLocalScaling({btScalar(kSquare), 1, btScalar(kSquare)});
@@ -195,7 +195,7 @@ TEST(MeshGround, FollowsHeightsThatChange) {
   };
   step(60);
   EXPECT_NEAR(lowest(*block), 0.55, 1e-3);
-  ground.heights.fill(0.2f);
+  ground.heights.fill(btScalar(0.2));
   step(120);
   EXPECT_NEAR(lowest(*block), 0.25, 1e-3);
   w.world.addRigidBody(w.ground);

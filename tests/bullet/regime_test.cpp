@@ -225,6 +225,20 @@ TEST(Regime, ItFallsOnTriangleMeshes) {
   EXPECT_TRUE(block->isAsleep());
 }
 
+// What gravity adds on the last bit of the way makes the blow: Bullet would take the block 9 mm deep first.
+TEST(Regime, WhatFallsIsElementsBeforeItIsInTheGround) {
+  BulletWorld w;
+  const DestructibleBody* block = w.destruction->addBody(blockDef({4, 2, 4}, {0, btScalar(0.01), 0}));
+  bool struck = false;
+  for (int tick = 0; tick < 60; ++tick) {
+    w.world.stepSimulation(btScalar(1) / 60, 1);
+    if (block->isWhole()) continue;
+    struck = true;
+    for (const ElementPose& e : posesOf(*block)) EXPECT_GT(double(e.position.y()) - 0.025, -5e-4) << tick;
+  }
+  EXPECT_TRUE(struck);
+}
+
 TEST(Regime, TwoWholeBlocksThatMeetBreakAsElementsDo) {
   const auto broken = [](Regime regime) {
     BulletWorld w;

@@ -8,8 +8,8 @@
 namespace rubble::test {
 namespace {
 
-constexpr double kCube = 0.2;                                  // edge of the cubes of a slab [m]
-constexpr double kCubeStiffness = 0.5 * 30e6 * kCube;          // k_n of concrete_soft [N/m]
+constexpr double kSlabCube = 0.2;                              // edge of the cubes of a slab [m]
+constexpr double kCubeStiffness = 0.5 * 30e6 * kSlabCube;      // k_n of concrete_soft [N/m]
 constexpr double kCubeWeight = 2400 * 0.2 * 0.2 * 0.2 * 9.81;  // [N]
 
 edem::Collider sharpBox(const Eigen::Vector3d& half) {
@@ -103,7 +103,7 @@ TYPED_TEST_SUITE(EdgeContact, Scalars);
 // Of steel, 40 x 40 mm, 1 m: it lies across three cubes, whose vertices are beside it, and overhangs by a
 // cube on both sides.
 edem::RigidProxy beamAt(double x) {
-  return solidBox({0.02, 0.02, 0.5}, 7850 * 0.04 * 0.04, {x, kCube + 0.02, 0.3});
+  return solidBox({0.02, 0.02, 0.5}, 7850 * 0.04 * 0.04, {x, kSlabCube + 0.02, 0.3});
 }
 
 TYPED_TEST(EdgeContact, ANarrowBeamLiesOnASlabThatItOverhangs) {
@@ -130,7 +130,7 @@ TYPED_TEST(EdgeContact, FrictionHoldsABeamOnItsEdges) {
 
 TYPED_TEST(EdgeContact, AThinPlateStandsOnItsLongEdge) {
   // 10 mm thick, 0.2 m high, 1 m long; between the vertices of the cubes.
-  edem::RigidProxy plate = solidBox({0.005, 0.1, 0.5}, 7850 * 0.01 * 0.2, {0.5, kCube + 0.1, 0.3});
+  edem::RigidProxy plate = solidBox({0.005, 0.1, 0.5}, 7850 * 0.01 * 0.2, {0.5, kSlabCube + 0.1, 0.3});
   const double sink = 7850 * 0.01 * 0.2 * 9.81 / (3 * kCubeStiffness);
   const double measured = this->sinkOf(plate);
   EXPECT_NEAR(measured, 1.2 * sink, 0.2 * sink);
@@ -148,7 +148,7 @@ TYPED_TEST(EdgeContact, ABlockLiesOnRailsAsOnAPlane) {
   }
   this->run(2, proxies, kGravity);
   const double overlap = 2 * kCubeWeight / kCubeStiffness;
-  EXPECT_NEAR(kCube / 2 - this->solver->position(0, 0).y(), overlap, 0.15 * overlap);
+  EXPECT_NEAR(kSlabCube / 2 - this->solver->position(0, 0).y(), overlap, 0.15 * overlap);
   EXPECT_LT(this->solver->maxSpeed(0), 1e-3);
 }
 
