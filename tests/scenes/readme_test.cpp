@@ -2,7 +2,9 @@
 // when they are out of date.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "demo/command_line.h"
@@ -46,6 +48,29 @@ TEST(Readme, TablesBelongToTheScenesAndTheSolverAsTheyAre) {
     }
   }
   EXPECT_GE(tables, 4);
+}
+
+// README's table of what works names a test in each row.
+TEST(Readme, TestsThatItNamesExist) {
+  std::string sources;
+  for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() + "/tests/bullet")) {
+    std::ifstream file(entry.path());
+    std::ostringstream text;
+    text << file.rdbuf();
+    sources += text.str();
+  }
+  std::ifstream readme(sourceFolder() + "/README.md");
+  const std::regex name("([A-Z][A-Za-z]+)[.]([A-Z][A-Za-z0-9]+)");
+  int named = 0;
+  for (std::string line; std::getline(readme, line);) {
+    if (!line.starts_with("| ")) continue;
+    for (std::sregex_iterator found(line.begin(), line.end(), name), end; found != end; ++found) {
+      ++named;
+      const std::string test = (*found)[1].str() + ", " + (*found)[2].str() + ")";
+      EXPECT_NE(sources.find(test), std::string::npos) << found->str();
+    }
+  }
+  EXPECT_GE(named, 25);
 }
 
 TEST(Rounded, HasThreeDigitsAndThousandsWithoutExponent) {
