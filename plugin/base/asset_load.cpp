@@ -15,6 +15,7 @@
 
 #include "base/asset_format.h"
 #include "base/hash.h"
+#include "base/huge_pages.h"
 #include "base/input_file.h"
 #include "base/material_name.h"
 
@@ -73,6 +74,7 @@ class BodyReader {
     using Record = typename Records::value_type;
     const std::size_t count = m_header.counts[array];
     records.reserve(count);
+    preferHugePages(records.data(), count * sizeof(Record));
     // Zeros that it grows by are overwritten in the cache.
     for (std::size_t at = 0; at < count; at = records.size()) {
       records.resize(std::min(count, at + kAssetBlock / sizeof(Record)));
