@@ -3,8 +3,10 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -109,6 +111,48 @@ TEST_F(HostileAsset, ContradictionsAreNamed) {
     } catch (const Error& error) {
       expectHas(error.what(), fault.words);
       expectHas(error.what(), "allowed");
+    }
+  }
+}
+
+// The cook puts a cell's corners together; a file need not, and gets away with nothing by it.
+TEST_F(HostileAsset, CornersInAnyOrderAreChecked) {
+  Asset turned = m_asset;
+  std::reverse(turned.corners.begin(), turned.corners.end());
+  const auto last = std::uint32_t(turned.corners.size() - 1);
+  for (auto& triangle : turned.triangles)
+    for (std::uint32_t& corner : triangle) corner = last - corner;
+  EXPECT_NO_THROW(turned.validate());
+  struct Fault {
+    const char* words;
+    std::function<void(Asset&)> make;
+  };
+  // Corner 0 is of the last cell, the first cell's are the last.
+  const std::vector<Fault> faults = {
+      {"corners[0].normal has length 2", [](Asset& a) { a.corners[0].normal *= 2; }},
+      {"corners[0].normal has length 1", [](Asset& a) { a.corners[0].normal *= 1.0002f; }},
+      {"corners[0].vertex is 4294967295", [](Asset& a) { a.corners[0].vertex = kNoElement; }},
+      {"of cell 11 names corner 0;", [](Asset& a) { a.corners[0].element = kNoElement; }},
+      {"triangles[0] of cell 0 names corner 0;", [](Asset& a) { a.triangles[0][0] = 0; }},
+      {"triangles[0] of cell 0 names corner 4294967295", [](Asset& a) { a.triangles[0][0] = kNoElement; }},
+      {"volumes[0] is",
+       [](Asset& a) { std::swap(a.triangles[0], a.triangles[1]), a.triangles[1] = a.triangles[0]; }},
+      // Of no triangle.
+      {".vertex is 4294967294",
+       [](Asset& a) {
+         a.corners.push_back({kNoElement - 1, 0, Eigen::Vector3f::UnitX()});
+       }},
+      {".element is 4294967295", [](Asset& a) {
+         a.corners.push_back({0, kNoElement, Eigen::Vector3f::UnitX()});
+       }}};
+  for (const Fault& fault : faults) {
+    Asset bad = turned;
+    fault.make(bad);
+    try {
+      bad.validate();
+      ADD_FAILURE() << "accepted; expected: " << fault.words;
+    } catch (const Error& error) {
+      expectHas(error.what(), fault.words);
     }
   }
 }
