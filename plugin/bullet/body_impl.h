@@ -42,10 +42,11 @@ struct DestructibleBody::Impl {
   std::unique_ptr<bullet::ElementShape> shape;
   std::unique_ptr<bullet::CouplerConstraint> coupler;
   std::unique_ptr<debris::Spawner> spawner;
-  std::vector<double> bondConstants;     ///< C_B of each element [J m^0.5]
-  std::vector<std::uint8_t> wasRoot;     ///< elements that were the lowest of a fragment
-  std::string name;                      ///< for messages: "body 3 (concrete, 2 m tall)"
-  std::string advice;                    ///< why it will not last; empty if nothing is known
+  std::vector<double> bondConstants;                     ///< C_B of each element [J m^0.5]
+  std::vector<std::uint8_t> wasRoot;                     ///< elements that were the lowest of a fragment
+  std::string name;                                      ///< for messages: "body 3 (concrete, 2 m tall)"
+  std::string advice;                                    ///< why it will not last; empty if nothing is known
+  btVector3 shownVelocity{0, 0, 0}, shownSpin{0, 0, 0};  ///< to the application, while it is elements
   double speed = 0;                      ///< of its fastest element when the last tick ended [m/s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };

@@ -18,14 +18,13 @@ bool hasGyroscopicTerm(const btVector3& inertia) {
 
 }  // namespace
 
-void stopInBullet(DestructibleBody& body) {
-  const btVector3 none(0, 0, 0);
+void showInBullet(DestructibleBody& body, const btVector3& velocity, const btVector3& spin) {
   body.setWorldTransform(btTransform::getIdentity());
   body.setInterpolationWorldTransform(btTransform::getIdentity());
-  body.setLinearVelocity(none);
-  body.setAngularVelocity(none);
-  body.setInterpolationLinearVelocity(none);
-  body.setInterpolationAngularVelocity(none);
+  body.setLinearVelocity(velocity);
+  body.setAngularVelocity(spin);
+  body.setInterpolationLinearVelocity(velocity);
+  body.setInterpolationAngularVelocity(spin);
 }
 
 void beElements(DestructibleBody& body) {
@@ -35,11 +34,12 @@ void beElements(DestructibleBody& body) {
   body.setCollisionShape(&shape);
   body.setMassProps(btScalar(body.impl().whole.mass), inertia);
   const btVector3 none(0, 0, 0);
-  stopInBullet(body);
+  showInBullet(body, none, none);
   body.clearForces();
   body.setGravity(none);
-  body.setLinearFactor(none);
-  body.setAngularFactor(none);
+  // Of what the application does to it; the elements take that from there.
+  body.setLinearFactor(body.impl().settings.linearFactor);
+  body.setAngularFactor(body.impl().settings.angularFactor);
   body.updateInertiaTensor();
   // Bullet's solver makes no contact rows against this body; its manifolds are ours.
   body.setContactProcessingThreshold(-BT_LARGE_FLOAT);

@@ -26,6 +26,7 @@ DestructibleBody* Destruction::addBody(const DestructibleBodyDef& def) {
 }
 
 void Destruction::removeBody(DestructibleBody* body) {
+  m_impl->wakeTouching(*body);
   m_impl->world.removeRigidBody(body);
   delete body;
 }

@@ -126,13 +126,21 @@ class ElementAlgorithm : public btCollisionAlgorithm {
       : btCollisionAlgorithm(info), m_isQuery(isQuery) {
     m_manifold = m_dispatcher->getNewManifold(first->getCollisionObject(), second->getCollisionObject());
   }
-  ~ElementAlgorithm() override { m_dispatcher->releaseManifold(m_manifold); }
+  // The two part, or one of them leaves the world: what sleeps on the other would hang in the air.
+  ~ElementAlgorithm() override {
+    if (m_touching) {
+      const_cast<btCollisionObject*>(m_manifold->getBody0())->activate();
+      const_cast<btCollisionObject*>(m_manifold->getBody1())->activate();
+    }
+    m_dispatcher->releaseManifold(m_manifold);
+  }
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                         const btDispatcherInfo&, btManifoldResult* result) override {
     const btCollisionObject *a = first->getCollisionObject(), *b = second->getCollisionObject();
     const DestructibleBody *ownA = upcastElements(a), *ownB = upcastElements(b);
     m_manifold->clearManifold();  // elements move within their body's frame: no point outlives a tick
+    m_touching = !m_isQuery && ownA && ownB;  // as far as is known without a look at all their elements
     if (!ownA == !ownB) return;
     if (!m_isQuery) note(ownA ? *ownA : *ownB, ownA ? *b : *a);
     result->setPersistentManifold(m_manifold);
@@ -143,6 +151,7 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     for (const Near& p : m_isQuery ? nearCells(own, ownA ? *second : *first, margin)
                                    : nearSpheres(own, ownA ? *b : *a, margin)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
+      if (!m_isQuery) m_touching = m_touching || p.distance < own.impl().shape->margin();
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
       result->addContactPoint(toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
                               toBullet(ownB ? onElement : p.point), btScalar(p.distance));
@@ -162,6 +171,7 @@ class ElementAlgorithm : public btCollisionAlgorithm {
 
   btPersistentManifold* m_manifold;
   bool m_isQuery;
+  bool m_touching = false;  // when last looked at
 };
 
 }  // namespace

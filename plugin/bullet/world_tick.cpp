@@ -163,6 +163,17 @@ DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
   return nullptr;
 }
 
+void Destruction::Impl::wakeTouching(const DestructibleBody& body) {
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    if (manifold.getNumContacts() == 0) continue;
+    for (const auto& [a, b] : {std::pair(manifold.getBody0(), manifold.getBody1()),
+                               std::pair(manifold.getBody1(), manifold.getBody0())})
+      if (a == &body) const_cast<btCollisionObject*>(b)->activate();
+  }
+}
+
 void Destruction::Impl::gatherProxies(double dt) {
   BT_PROFILE("Rubble gather proxies");
   bullet::addSwept(world, bodies, dt);
@@ -221,6 +232,7 @@ void Destruction::Impl::spareFiltered() {
 void Destruction::Impl::advance(double dt) {
   if (advanced || !failure.empty()) return;
   BT_PROFILE("Rubble advance");
+  takeHostMoves(dt);
   followSleep();
   substeps = 0;
   failSpoiled();
@@ -292,7 +304,7 @@ void Destruction::Impl::finish(double dt) {
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
-  holdElements();
+  showElements();
   failSpoiled();
   if (failure.empty()) placeWholes();
   updateSleep(dt);
@@ -352,15 +364,6 @@ void Destruction::Impl::failSpoiled() {
          "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
          "what "
          "set it, or for forces and joints on it");
-  }
-}
-
-void Destruction::Impl::holdElements() {
-  for (DestructibleBody* body : bodies) {
-    if (body->isWhole()) continue;
-    const bool still = body->getWorldTransform() == btTransform::getIdentity() &&
-                       body->getLinearVelocity().isZero() && body->getAngularVelocity().isZero();
-    if (!still) bullet::stopInBullet(*body);
   }
 }
 

@@ -52,6 +52,8 @@ struct Destruction::Impl {
 
   /// Substeps, once a tick: from the first coupler, or from the action when Bullet called none.
   void advance(double dt);
+  /// What lies on a body that is about to leave falls.
+  void wakeTouching(const DestructibleBody& body);
   /// After Bullet moved its bodies.
   void finish(double dt);
 
@@ -98,8 +100,9 @@ struct Destruction::Impl {
   void failSolver();
   /// Ends the simulation where a whole body's place or motion in Bullet is not finite.
   void failSpoiled();
-  /// Undoes what the application or Bullet has set of bodies that their elements move.
-  void holdElements();
+  /// Takes what the application has set of bodies that their elements move, and shows it what they do.
+  void takeHostMoves(double dt);
+  void showElements();
   void closeLedger(double dt);
   /// Ends the simulation when what should take energy makes more than was put in.
   void judgeDamping();

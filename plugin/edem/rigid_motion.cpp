@@ -1,13 +1,15 @@
 #include "edem/rigid_motion.h"
 
 namespace rubble::edem {
+namespace {
 
-template <class Real>
-std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
+// Of the living elements that groupOf(element) gives one number.
+template <class Real, class GroupOf>
+std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, GroupOf&& groupOf) {
   std::map<std::uint32_t, RigidMotion> motions;
   const auto each = [&](auto&& visit) {
     for (std::size_t i = 0; i < body.elementCount(); ++i)
-      if (body.alive[i]) visit(i, motions[body.fragment[i]]);
+      if (body.alive[i]) visit(i, motions[groupOf(i)]);
   };
   each([&](std::size_t i, RigidMotion& m) {
     m.mass += body.mass[i];
@@ -29,7 +31,22 @@ std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
   return motions;
 }
 
+}  // namespace
+
+template <class Real>
+std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
+  return motionsOf(body, [&](std::size_t i) { return body.fragment[i]; });
+}
+
+template <class Real>
+RigidMotion wholeMotion(const Body<Real>& body) {
+  const auto motions = motionsOf(body, [](std::size_t) { return 0u; });
+  return motions.empty() ? RigidMotion{} : motions.begin()->second;
+}
+
 template std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<float>&);
 template std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<double>&);
+template RigidMotion wholeMotion(const Body<float>&);
+template RigidMotion wholeMotion(const Body<double>&);
 
 }  // namespace rubble::edem

@@ -23,4 +23,8 @@ struct RigidMotion {
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body);
 
+/// Of all that is alive.
+template <class Real>
+RigidMotion wholeMotion(const Body<Real>& body);
+
 }  // namespace rubble::edem

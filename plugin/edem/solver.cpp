@@ -103,6 +103,20 @@ class SolverOf final : public Solver {
     pushElement(*m_world.bodies[place], i, linear, angular, m_world.books);
   }
 
+  RigidMotion motion(std::uint32_t id) const override { return wholeMotion(of(id)); }
+  void push(std::uint32_t id, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    forgetSleep(body);
+    m_world.listsStale = true;
+    pushWhole(body, velocity, spin, m_world.books);
+  }
+  void move(std::uint32_t id, const Eigen::Isometry3d& by) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    forgetSleep(body);
+    endContactsOf(id);
+    moveWhole(body, by, m_world.books);
+  }
+
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
     Body<Real>& body = *m_world.bodies[placeOf(id)];
@@ -125,10 +139,7 @@ class SolverOf final : public Solver {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
     if (!mayPark(body)) return std::nullopt;
     forgetSleep(body);
-    const double contacts = m_world.lists.endContactsOf(id) + m_world.rigid.endContactsOf(id);
-    m_world.books.elastic -= contacts;
-    m_world.books.massDamped += contacts;
-    m_world.listsStale = true;
+    endContactsOf(id);
     return edem::park(body, m_world.books);
   }
   std::optional<Unrest> unrest(std::uint32_t id) const override {
@@ -157,6 +168,13 @@ class SolverOf final : public Solver {
     for (std::size_t b = 0; b < m_world.bodies.size(); ++b)
       if (m_world.bodies[b]->id == id) return b;
     throw Error("no destructible body has the id " + std::to_string(id));
+  }
+  // The host takes a body from where it touched.
+  void endContactsOf(std::uint32_t id) {
+    const double contacts = m_world.lists.endContactsOf(id) + m_world.rigid.endContactsOf(id);
+    m_world.books.elastic -= contacts;
+    m_world.books.massDamped += contacts;
+    m_world.listsStale = true;
   }
   const Body<Real>& of(std::uint32_t id) const { return *m_world.bodies[placeOf(id)]; }
 

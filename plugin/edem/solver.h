@@ -12,6 +12,7 @@
 #include "edem/books.h"
 #include "edem/calm.h"
 #include "edem/parking.h"
+#include "edem/rigid_motion.h"
 #include "edem/rigid_proxy.h"
 #include "edem/solver_def.h"
 #include "edem/stages.h"
@@ -78,6 +79,11 @@ class Solver {
   /// [N s], [N m s]. Booked as the host's.
   virtual void push(std::uint32_t id, std::size_t element, const Eigen::Vector3d& linear,
                     const Eigen::Vector3d& angular) = 0;
+  /// Motion of all that is alive of a body, as one.
+  virtual RigidMotion motion(std::uint32_t id) const = 0;
+  /// Adds a rigid motion to it, and moves it with its anchors, between ticks; wakes it. Booked as the host's.
+  virtual void push(std::uint32_t id, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) = 0;
+  virtual void move(std::uint32_t id, const Eigen::Isometry3d& by) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
   /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;

@@ -12,9 +12,11 @@ namespace rubble {
 RUBBLE_ABI_BEGIN
 
 /// While its elements move it, Bullet sees a body of true mass that it never moves itself: shape and motion
-/// are the elements', and its Bullet transform is the identity. While it is whole (Regime::RigidUntilStruck)
-/// it is a rigid body as any other. Either way poses() tells where the elements are. Made by
-/// Destruction::addBody only.
+/// are the elements', its Bullet velocities those of all of them together, and its Bullet transform is the
+/// identity. Velocities, impulses, forces and its own gravity that the application sets act on all of them as
+/// one in the next tick; a transform moves them by it, anchors too. While it is whole
+/// (Regime::RigidUntilStruck) it is a rigid body as any other. Either way poses() tells where the elements
+/// are. Made by Destruction::addBody only.
 class DestructibleBody : public btRigidBody {
  public:
   ~DestructibleBody() override;

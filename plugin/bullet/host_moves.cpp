@@ -1,0 +1,85 @@
+// What the application does to a body through Bullet while its elements move it: velocities, impulses, forces
+// and places that it sets act on all elements as one.
+#include <LinearMath/btQuickprof.h>
+
+#include "bullet/body_states.h"
+#include "bullet/convert.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+using bullet::toBullet;
+using bullet::toEigen;
+
+bool isFinite(const btRigidBody& body) {
+  return toEigen(body.getWorldTransform()).matrix().allFinite() &&
+         toEigen(body.getLinearVelocity()).allFinite() && toEigen(body.getAngularVelocity()).allFinite() &&
+         toEigen(body.getTotalForce()).allFinite() && toEigen(body.getTotalTorque()).allFinite();
+}
+
+// Of the application; gravity of the body's own, where it has been given one, is instead of the world's [N].
+btVector3 forceOn(const btRigidBody& body, double mass, const btVector3& gravity) {
+  const btVector3& force = body.getTotalForce();
+  return body.getGravity().isZero() ? force : force - btScalar(mass) * body.getLinearFactor() * gravity;
+}
+
+}  // namespace
+
+void Destruction::Impl::takeHostMoves(double dt) {
+  BT_PROFILE("Rubble take host moves");
+  for (DestructibleBody* body : bodies) {
+    DestructibleBody::Impl& own = body->impl();
+    if (own.state != DestructibleBody::Impl::State::Elements || !isFinite(*body)) continue;
+    // Bullet stops what it puts to sleep, and lets no force act on it.
+    const bool sleeps = solver->view(own.id).asleep && !body->isActive();
+    if (sleeps) own.shownVelocity = own.shownSpin = {0, 0, 0};
+    const btVector3 velocity = body->getLinearVelocity() - own.shownVelocity,
+                    spin = body->getAngularVelocity() - own.shownSpin;
+    const btTransform& place = body->getWorldTransform();
+    const bool moved = !(place == btTransform::getIdentity()), set = !velocity.isZero() || !spin.isZero(),
+               forced = !sleeps && (!body->getTotalForce().isZero() || !body->getTotalTorque().isZero());
+    if (!moved && !set && !forced) continue;
+    body->activate(true);
+    solver->setAsleep(own.id, false);
+    if (moved) {
+      solver->move(own.id, toEigen(place));
+      own.shape->follow();
+    }
+    if (set || forced) {
+      const edem::RigidMotion motion = solver->motion(own.id);
+      if (!(motion.mass > 0)) continue;
+      Eigen::Vector3d dv = toEigen(velocity), dw = toEigen(spin);
+      if (forced) {
+        dv += dt / motion.mass * toEigen(forceOn(*body, motion.mass, world.getGravity()));
+        dw += dt * motion.inertia.ldlt().solve(toEigen(body->getTotalTorque()));
+      }
+      solver->push(own.id, dv, dw);
+    }
+    // What it moves with from here on meets what is fast, too.
+    own.speed = solver->maxSpeed(own.id);
+    own.shape->refit(own.speed * dt);
+  }
+}
+
+// Bullet sees a body of elements at the origin, with the mass and the motion of all of them together.
+void Destruction::Impl::showElements() {
+  for (DestructibleBody* body : bodies) {
+    DestructibleBody::Impl& own = body->impl();
+    if (body->isWhole()) continue;
+    const bool asleep = solver->view(own.id).asleep || !failure.empty();
+    const edem::RigidMotion motion = asleep ? edem::RigidMotion() : solver->motion(own.id);
+    own.shownVelocity = toBullet(motion.velocity);
+    own.shownSpin = toBullet(motion.spin);
+    bullet::showInBullet(*body, own.shownVelocity, own.shownSpin);
+    if (asleep || !(motion.mass > 0)) continue;
+    // By the diagonal, in the world's axes, of what impulses turn it by.
+    const Eigen::Vector3d turns = motion.inertia.inverse().diagonal();
+    body->setMassProps(btScalar(motion.mass), toBullet(Eigen::Vector3d(turns.cwiseInverse())));
+    body->updateInertiaTensor();
+  }
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble

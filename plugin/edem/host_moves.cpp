@@ -1,0 +1,54 @@
+#include "edem/host_moves.h"
+
+#include "edem/body_books.h"
+#include "edem/frames.h"
+#include "edem/rigid_motion.h"
+#include "edem/stages.h"
+
+namespace rubble::edem {
+
+template <class Real>
+void pushWhole(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin, Books& books) {
+  const Eigen::Vector3d centre = wholeMotion(body).centre;
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (!body.alive[i]) continue;
+    const Eigen::Vector3d arm = body.worldPosition(i) - centre;
+    pushElement(body, i, body.mass[i] * (velocity + spin.cross(arm)), body.inertia[i] * spin, books);
+  }
+}
+
+template <class Real>
+void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
+  const auto momenta = [&] {
+    const RigidMotion m = wholeMotion(body);
+    const Eigen::Vector3d linear = m.mass * m.velocity;
+    return std::pair(linear, Eigen::Vector3d(m.angular + (m.centre - books.centre).cross(linear)));
+  };
+  const auto [linear, angular] = momenta();
+  const Eigen::Quaterniond turn(by.linear());
+  body.origin = by * body.origin;
+  body.turn = (turn * body.turn).normalized();
+  for (Frame& frame : body.frames) frame = {by * frame.origin, (turn * frame.turn).normalized()};
+  if (!by.linear().isIdentity(0)) {
+    const Eigen::Matrix<Real, 3, 3> turned = by.linear().cast<Real>();
+    const Quat<Real> around = turn.cast<Real>();
+    for (auto* vectors :
+         {&body.displacement, &body.velocity, &body.velocityCarry, &body.spin, &body.parkedAt})
+      for (Vec3<Real>& v : *vectors) v = turned * v;
+    for (auto* rotations : {&body.rotation, &body.parkedTurn})
+      for (Quat<Real>& q : *rotations) q = (around * q * around.conjugate()).normalized();
+  }
+  turnRest(body, 0);
+  beginSubstep(body);
+  const auto [linearNow, angularNow] = momenta();
+  books.bullet.push(1, linearNow - linear, Eigen::Vector3d::Zero(), angularNow - angular);
+  books.linear += linearNow - linear;
+  books.angular += angularNow - angular;
+}
+
+template void pushWhole(Body<float>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void pushWhole(Body<double>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void moveWhole(Body<float>&, const Eigen::Isometry3d&, Books&);
+template void moveWhole(Body<double>&, const Eigen::Isometry3d&, Books&);
+
+}  // namespace rubble::edem

@@ -1,0 +1,18 @@
+// What the host does to a body of elements as one, between ticks: booked as the host's.
+#pragma once
+
+#include "edem/body.h"
+#include "edem/books.h"
+
+namespace rubble::edem {
+
+/// Adds a rigid motion about the centre of mass of what is alive [m/s], [rad/s].
+template <class Real>
+void pushWhole(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin, Books& books);
+
+/// Moves a body and its anchors, velocities turned with it; with its frames, so that no displacement changes
+/// where nothing is turned.
+template <class Real>
+void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books);
+
+}  // namespace rubble::edem
