@@ -42,8 +42,8 @@ void Asset::validate() const {
   base::checkIndices(*this);
   base::checkLook(*this);
   const base::AssetScale scale = base::checkNumbers(*this);
+  base::checkCells(*this, scale);
   base::checkNeighbours(*this);
-  base::checkCellShapes(*this, scale);
   base::checkDistances(*this);
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -23,16 +24,17 @@ struct AssetScale {
 
 /// Lengths of the arrays, against one another and against what an index can name.
 void checkCounts(const Asset& asset);
-/// Every index, range and order. Afterwards all of them can be followed.
+/// Every index, range and order but those of corners, triangles and faces.
 void checkIndices(const Asset& asset);
 /// Texture coordinates and materials, with the names of these.
 void checkLook(const Asset& asset);
-/// Every number by itself, and sizes against the bounds.
+/// Every number by itself but those of corners and faces, and sizes against the bounds.
 AssetScale checkNumbers(const Asset& asset);
+/// Corners, triangles and faces; places, volumes, gyrations and areas against the cell they belong to.
+/// Afterwards all indices can be followed.
+void checkCells(const Asset& asset, const AssetScale& scale);
 /// Faces between cells stand on both sides and once a side; springs join cells with a face between them.
 void checkNeighbours(const Asset& asset);
-/// Places, volumes, gyrations and areas against the cell they belong to.
-void checkCellShapes(const Asset& asset, const AssetScale& scale);
 /// No two elements in one place, or nearly so.
 void checkDistances(const Asset& asset);
 
@@ -42,6 +44,24 @@ template <class... Parts>
   text << "asset: ";
   (text << ... << parts);
   throw Error(text.str());
+}
+
+/// Coordinates: beyond this squares and volumes of doubles are not sure to keep any digit [m].
+inline constexpr double kLargestCoordinate = 1e9;
+
+template <class Vector>
+void checkPlace(const Vector& place, const char* array, std::size_t at, const char* field) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = double(place[axis]);
+    if (!(std::abs(value) <= kLargestCoordinate))
+      refuseAsset(array, '[', at, ']', field, '.', "xyz"[axis], " is ", value, " m; allowed: -",
+                  kLargestCoordinate, " to ", kLargestCoordinate);
+  }
+}
+
+inline void checkArea(double area, const char* array, std::size_t at, double least) {
+  if (!(area >= least) || !std::isfinite(area))
+    refuseAsset(array, '[', at, "].area is ", area, " m^2; allowed: finite and at least ", least);
 }
 
 /// Of a sphere [m^3].

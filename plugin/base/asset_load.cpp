@@ -1,5 +1,5 @@
-// Reads an asset file twice: first header, length and checksum, in a block of constant size, then the arrays.
-// So a file that is damaged, or no asset at all, costs no memory whatever its size.
+// Reads an asset file once: header and length first, then the arrays straight into their places, each block
+// into the checksum while it is in the cache. Memory is taken for as much as the file has.
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -15,6 +15,7 @@
 
 #include "base/asset_format.h"
 #include "base/hash.h"
+#include "base/huge_pages.h"
 #include "base/input_file.h"
 #include "base/material_name.h"
 
@@ -43,71 +44,81 @@ struct Header {
   std::uint64_t checksum = 0;
   AssetCounts counts{};
 
+  bool isAligned = false;  // version 4
+
   bool hasRest() const { return counts[kRest] > 0; }
   // How many of the counts stand in the file.
   std::size_t countsInFile() const { return bytes == kAssetLookHeaderBytes ? kAssetArrays : kShapeArrays; }
 };
 
-// The file's body in blocks; adds up the checksum of what it has read.
+// The file's body from its beginning on; adds up the checksum of what it has read. A visitor of
+// visitAssetArrays. Asks for as many bytes as the length check has let through.
 class BodyReader {
  public:
-  BodyReader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t bytes)
-      : m_file(file), m_stream(stream), m_left(bytes), m_buffer(kMostNumber + kAssetBlock) {
+  BodyReader(const std::filesystem::path& file, std::ifstream& stream, const Header& header)
+      : m_file(file),
+        m_stream(stream),
+        m_header(header),
+        m_checksum(header.isAligned ? FileChecksum::kLanes : 1) {
     m_stream.clear();
     m_stream.seekg(std::streamoff(kAssetBodyOffset));
   }
 
   template <class T>
-  requires std::is_arithmetic_v<T>
-  void get(T& value) {
-    if (m_end - m_at < sizeof(T)) refill();
-    value = decoded<T>(m_buffer.data() + m_at);
-    m_at += sizeof(T);
+  void number(T& value) {
+    read(std::as_writable_bytes(std::span(&value, 1)));
+    turnBytes(value);
   }
-  template <class Scalar, int N>
-  void get(Eigen::Matrix<Scalar, N, 1>& v) {
-    for (int axis = 0; axis < N; ++axis) get(v[axis]);
+  template <class Records>
+  void array(AssetArray array, Records& records) {
+    using Record = typename Records::value_type;
+    const std::size_t count = m_header.counts[array];
+    records.reserve(count);
+    preferHugePages(records.data(), count * sizeof(Record));
+    // Zeros that it grows by are overwritten in the cache.
+    for (std::size_t at = 0; at < count; at = records.size()) {
+      records.resize(std::min(count, at + kAssetBlock / sizeof(Record)));
+      const std::span<Record> block(records.data() + at, records.size() - at);
+      read(std::as_writable_bytes(block));
+      if constexpr (std::endian::native == std::endian::big)
+        for (Record& record : block) visitRecord(record, [](auto& value) { turnBytes(value); });
+    }
+    skipPadding(count * sizeof(Record));
   }
-  template <std::size_t N>
-  void get(std::array<std::uint32_t, N>& values) {
-    for (std::uint32_t& value : values) get(value);
-  }
-
-  // Reads what is left for the checksum's sake.
-  void drain() {
-    while (m_left > 0) {
-      m_at = m_end;
-      refill();
+  // In memory they have a gap.
+  void array(AssetArray, std::vector<AssetAnchor>& anchors) {
+    anchors.reserve(m_header.counts[kAnchors]);
+    while (anchors.size() < m_header.counts[kAnchors]) {
+      AssetAnchor anchor;
+      number(anchor.element);
+      skipPadding(sizeof anchor.element);
+      number(anchor.area);
+      for (double& coordinate : anchor.point) number(coordinate);
+      anchors.push_back(anchor);
     }
   }
-  std::uint64_t checksum() const { return m_checksum; }
+  std::uint64_t checksum() const { return m_checksum.value(); }
 
  private:
-  static constexpr std::size_t kMostNumber = 8;  // bytes of the longest number, which blocks may cut
-
-  // Callers ask for as many numbers as the length check has let through.
-  void refill() {
-    std::copy(m_buffer.begin() + std::ptrdiff_t(m_at), m_buffer.begin() + std::ptrdiff_t(m_end),
-              m_buffer.begin());
-    m_end -= m_at;
-    m_at = 0;
-    const std::span block(m_buffer.data() + m_end, std::size_t(std::min<std::uint64_t>(m_left, kAssetBlock)));
+  void skipPadding(std::size_t bytesBefore) {
+    if (!m_header.isAligned) return;
+    std::array<std::byte, kAssetAlignment> zeros{};
+    read(std::span(zeros).first((kAssetAlignment - bytesBefore % kAssetAlignment) % kAssetAlignment));
+    if (zeros != decltype(zeros){}) refuseFile(m_file, "is damaged: bytes between its arrays are not zero");
+  }
+  void read(std::span<std::byte> bytes) {
     errno = 0;
-    m_stream.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.size()));
+    m_stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
     const int error = errno;
     if (m_stream.eof()) refuseFile(m_file, "is cut off: it became shorter while it was being read");
     if (!m_stream) refuseFile(m_file, "cannot be read" + reasonOf(error));
-    m_checksum = base::checksum(block, m_checksum);
-    m_left -= block.size();
-    m_end += block.size();
+    m_checksum.add(bytes);
   }
 
   const std::filesystem::path& m_file;
   std::ifstream& m_stream;
-  std::uint64_t m_left;  // bytes of the body not yet read
-  std::vector<std::uint8_t> m_buffer;
-  std::size_t m_at = 0, m_end = 0;
-  std::uint64_t m_checksum = base::Fnv1a::kOffsetBasis;
+  const Header& m_header;
+  FileChecksum m_checksum;
 };
 
 // The file's first bytes, as many as the longest header has or the file.
@@ -122,9 +133,9 @@ std::vector<std::uint8_t> readStart(const std::filesystem::path& file, std::ifst
 
 std::size_t headerBytesOf(const std::filesystem::path& file, std::uint32_t version) {
   if (version == kAssetVersion || version == kAssetVersionWithRest) return kAssetHeaderBytes;
-  if (version == kAssetVersionWithLook) return kAssetLookHeaderBytes;
+  if (version == kAssetVersionWithLook || version == kAssetVersionAligned) return kAssetLookHeaderBytes;
   refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions " +
-                       std::to_string(kAssetVersion) + " to " + std::to_string(kAssetVersionWithLook) +
+                       std::to_string(kAssetVersion) + " to " + std::to_string(kAssetVersionAligned) +
                        ": cook it again");
 }
 
@@ -144,6 +155,7 @@ Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std:
   const auto headerBytes = decoded<std::uint32_t>(at + 4);
   Header header;
   header.bytes = headerBytesOf(file, version);
+  header.isAligned = version == kAssetVersionAligned;
   if (headerBytes != header.bytes)
     refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
                          " bytes; allowed: " + std::to_string(header.bytes));
@@ -173,14 +185,16 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const He
     refuseFile(file,
                "has " + std::to_string(size) + " bytes; allowed: up to " + std::to_string(kMostAssetBytes));
   std::uint64_t left = size - header.bytes;
-  for (std::size_t a = 0; a < kRest; ++a) {
-    if (counts[a] > left / kAssetRecords[a].bytes) {  // a product could overflow
+  for (int a = 0; a < kRest; ++a) {
+    const std::size_t i = std::size_t(a);
+    // A product could overflow.
+    if (counts[i] > left || assetArrayBytes(AssetArray(a), counts[i], header.isAligned) > left) {
       std::ostringstream text;
-      text << "is cut off or damaged: " << counts[a] << ' ' << kAssetRecords[a].name
+      text << "is cut off or damaged: " << counts[i] << ' ' << kAssetRecords[i].name
            << " do not fit into the file's " << size << " bytes";
       refuseFile(file, text.str());
     }
-    left -= counts[a] * kAssetRecords[a].bytes;
+    left -= assetArrayBytes(AssetArray(a), counts[i], header.isAligned);
   }
   checkCounts(file, counts);
   if (header.hasRest()) {
@@ -194,35 +208,6 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const He
   if (left != 0) refuseFile(file, "is damaged: " + std::to_string(left) + " bytes too many at its end");
 }
 
-void checkChecksum(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
-                   const Header& header) {
-  BodyReader body(file, stream, size - kAssetBodyOffset);
-  body.drain();
-  if (body.checksum() != header.checksum) refuseFile(file, "is damaged: its checksum does not match");
-}
-
-Asset emptyAsset(const AssetCounts& counts) {
-  Asset asset;
-  asset.positions.resize(counts[kElements]);
-  asset.volumes.resize(counts[kElements]);
-  asset.gyrations.resize(counts[kElements]);
-  asset.springs.resize(counts[kSprings]);
-  asset.anchors.resize(counts[kAnchors]);
-  asset.vertices.resize(counts[kVertices]);
-  asset.corners.resize(counts[kCorners]);
-  asset.triangles.resize(counts[kTriangles]);
-  asset.faces.resize(counts[kFaces]);
-  asset.cells.resize(counts[kCells]);
-  asset.uvs.resize(counts[kUvs]);
-  asset.materials.resize(counts[kMaterials]);
-  if (counts[kRest] > 0) {
-    asset.rest.emplace();
-    asset.rest->displacements.resize(counts[kRest]);
-    asset.rest->rotations.resize(counts[kRest]);
-  }
-  return asset;
-}
-
 // Each name ends with a zero.
 std::vector<std::string> splitNames(const std::filesystem::path& file, const std::string& names) {
   if (!names.empty() && names.back() != '\0')
@@ -233,18 +218,18 @@ std::vector<std::string> splitNames(const std::filesystem::path& file, const std
   return list;
 }
 
-Asset readBody(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size,
-               const Header& header) {
-  Asset asset = emptyAsset(header.counts);
-  std::string names(header.counts[kNameBytes], '\0');
-  BodyReader body(file, stream, size - kAssetBodyOffset);
-  body.get(asset.radius);
+Asset readBody(const std::filesystem::path& file, std::ifstream& stream, const Header& header) {
+  Asset asset;
+  if (header.hasRest()) asset.rest.emplace();
+  std::string names;
+  BodyReader body(file, stream, header);
+  body.number(asset.radius);
   AssetCounts again = header.counts;
-  for (std::uint64_t& count : std::span(again).first(header.countsInFile())) body.get(count);
-  visitAssetFields(asset, names, [&body](auto& value) { body.get(value); });
-  if (body.checksum() != header.checksum || again != header.counts ||
-      stream.peek() != std::ifstream::traits_type::eof())
+  for (std::uint64_t& count : std::span(again).first(header.countsInFile())) body.number(count);
+  visitAssetArrays(asset, names, body);
+  if (again != header.counts || stream.peek() != std::ifstream::traits_type::eof())
     refuseFile(file, "is damaged: it changed while it was being read");
+  if (body.checksum() != header.checksum) refuseFile(file, "is damaged: its checksum does not match");
   asset.materialNames = splitNames(file, names);
   return asset;
 }
@@ -256,8 +241,7 @@ Asset loadFile(const std::filesystem::path& file) {
   if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
   const Header header = readHeader(file, stream, size);
   checkLength(file, size, header);
-  checkChecksum(file, stream, size, header);
-  Asset asset = readBody(file, stream, size, header);
+  Asset asset = readBody(file, stream, header);
   try {
     asset.validate();
   } catch (const Error& error) {

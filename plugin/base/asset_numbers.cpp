@@ -7,8 +7,6 @@
 namespace rubble::base {
 namespace {
 
-// Coordinates: beyond this squares and volumes of doubles are not sure to keep any digit [m].
-constexpr double kLargestCoordinate = 1e9;
 // Of the bounds [m]. Moments of inertia of such a solid (1e31 kg m^2 at 2 t/m^3) are still floats, in which
 // the elements move.
 constexpr double kLargestDiagonal = 1e6;
@@ -19,32 +17,9 @@ constexpr double kLeastRadius = 1e-6;
 constexpr double kLeastArea = 1e-30;
 // A cell holds most of its element; even one pressed into a needle's tip holds more of it than this share.
 constexpr double kLeastCellShare = 1e-6;
-// A normal is stored in floats; this is a few hundred times their rounding, and far from any wrong normal.
-constexpr float kUnitTolerance = 1e-4f;
 // Of a quaternion in doubles: far above their rounding, and far below what a force would show.
 constexpr double kUnitQuaternion = 1e-9;
 constexpr double kSumTolerance = 1e-6;  // for sums of up to ten million doubles
-
-template <class Vector>
-void checkPlace(const Vector& place, const char* array, std::size_t at, const char* field) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value = double(place[axis]);
-    if (!(std::abs(value) <= kLargestCoordinate))
-      refuseAsset(array, '[', at, ']', field, '.', "xyz"[axis], " is ", value, " m; allowed: -",
-                  kLargestCoordinate, " to ", kLargestCoordinate);
-  }
-}
-
-void checkUnit(const Eigen::Vector3f& normal, const char* array, std::size_t at) {
-  const float length = normal.norm();
-  if (!(std::abs(length - 1.0f) <= kUnitTolerance))
-    refuseAsset(array, '[', at, "].normal has length ", length, "; allowed: 1");
-}
-
-void checkArea(double area, const char* array, std::size_t at, double least) {
-  if (!(area >= least) || !std::isfinite(area))
-    refuseAsset(array, '[', at, "].area is ", area, " m^2; allowed: finite and at least ", least);
-}
 
 AssetScale measureScale(const Asset& asset) {
   AssetScale scale{asset.bounds(), 0};
@@ -119,12 +94,6 @@ AssetScale checkNumbers(const Asset& asset) {
   for (std::size_t a = 0; a < asset.anchors.size(); ++a) {
     checkArea(asset.anchors[a].area, "anchors", a, kLeastArea);
     checkPlace(asset.anchors[a].point, "anchors", a, ".point");
-  }
-  for (std::size_t c = 0; c < asset.corners.size(); ++c) checkUnit(asset.corners[c].normal, "corners", c);
-  for (std::size_t f = 0; f < asset.faces.size(); ++f) {
-    checkArea(double(asset.faces[f].area), "faces", f, 0);
-    checkUnit(asset.faces[f].normal, "faces", f);
-    checkPlace(asset.faces[f].centroid, "faces", f, ".centroid");
   }
   checkRest(asset, scale);
   return scale;

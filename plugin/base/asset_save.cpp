@@ -39,7 +39,7 @@ class PartialFile {
     std::filesystem::remove(m_path, ignored);
   }
 
-  void write(std::span<const std::uint8_t> bytes) {
+  void write(std::span<const std::byte> bytes) {
     errno = 0;
     m_stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     if (!m_stream) fail(errno);
@@ -69,54 +69,54 @@ class PartialFile {
   std::ofstream m_stream;
 };
 
-// Gathers blocks and writes them; adds up the checksum of the body.
+// Writes the file and adds up the checksum of it. A visitor of visitAssetArrays.
 class Writer {
  public:
-  explicit Writer(PartialFile& file) : m_file(file) { m_block.reserve(kAssetBlock); }
+  explicit Writer(PartialFile& file) : m_file(file) {}
 
   template <class T>
-  requires std::is_arithmetic_v<T>
-  void put(T value) {
-    auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
-    put(std::span<const std::uint8_t>(bytes));
+  void number(T value) {
+    turnBytes(value);
+    write(std::as_bytes(std::span(&value, 1)));
   }
-  template <class Scalar, int N>
-  void put(const Eigen::Matrix<Scalar, N, 1>& v) {
-    for (int axis = 0; axis < N; ++axis) put(v[axis]);
+  template <class Records>
+  void array(AssetArray, const Records& records) {
+    if constexpr (std::endian::native == std::endian::little) {
+      write(std::as_bytes(std::span(records)));
+    } else {
+      for (auto record : records) {
+        visitRecord(record, [](auto& value) { turnBytes(value); });
+        write(std::as_bytes(std::span(&record, 1)));
+      }
+    }
+    pad(records.size() * sizeof(typename Records::value_type));
   }
-  template <std::size_t N>
-  void put(const std::array<std::uint32_t, N>& values) {
-    for (const std::uint32_t value : values) put(value);
+  // In memory they have a gap.
+  void array(AssetArray, const std::vector<AssetAnchor>& anchors) {
+    for (const AssetAnchor& anchor : anchors) {
+      number(anchor.element);
+      pad(sizeof anchor.element);
+      number(anchor.area);
+      for (const double coordinate : anchor.point) number(coordinate);
+    }
   }
 
   // The body begins with the next number.
-  void startBody() {
-    write();
-    m_checksum = Fnv1a::kOffsetBasis;
-  }
-  // The body ends with the last number: its checksum.
-  std::uint64_t finish() {
-    write();
-    return m_checksum;
-  }
+  void startBody() { m_checksum = FileChecksum(FileChecksum::kLanes); }
+  std::uint64_t checksum() const { return m_checksum.value(); }
 
  private:
-  void put(std::span<const std::uint8_t> bytes) {
-    for (const std::uint8_t byte : bytes) {
-      m_block.push_back(byte);
-      if (m_block.size() == kAssetBlock) write();
-    }
+  void pad(std::size_t bytesBefore) {
+    constexpr std::array<std::byte, kAssetAlignment> kZeros{};
+    write(std::span(kZeros).first((kAssetAlignment - bytesBefore % kAssetAlignment) % kAssetAlignment));
   }
-  void write() {
-    m_checksum = checksum(m_block, m_checksum);
-    m_file.write(m_block);
-    m_block.clear();
+  void write(std::span<const std::byte> bytes) {
+    m_checksum.add(bytes);
+    m_file.write(bytes);
   }
 
   PartialFile& m_file;
-  std::vector<std::uint8_t> m_block;
-  std::uint64_t m_checksum = Fnv1a::kOffsetBasis;
+  FileChecksum m_checksum{FileChecksum::kLanes};
 };
 
 void checkTarget(const std::filesystem::path& file) {
@@ -141,7 +141,8 @@ AssetCounts countsOf(const Asset& asset, std::size_t nameBytes, const std::files
                               nameBytes,
                               asset.rest ? asset.positions.size() : 0};
   std::uint64_t bytes = kAssetLookHeaderBytes + (asset.rest ? kAssetRestKeyBytes : 0);
-  for (std::size_t a = 0; a < kAssetArrays; ++a) bytes += counts[a] * kAssetRecords[a].bytes;
+  for (int a = 0; a < kAssetArrays; ++a)
+    bytes += assetArrayBytes(AssetArray(a), counts[std::size_t(a)], true);
   if (bytes > kMostAssetBytes)
     refuseFile(file, "would have " + std::to_string(bytes) + " bytes; allowed: up to " +
                          std::to_string(kMostAssetBytes));
@@ -155,22 +156,19 @@ void save(const Asset& asset, const std::filesystem::path& file) {
   checkTarget(file);
   const std::string names = nameBytesOf(asset);
   const AssetCounts counts = countsOf(asset, names.size(), file);
-  const bool hasLook = !asset.uvs.empty() || !asset.materials.empty() || !names.empty();
   PartialFile partial(file);
   Writer writer(partial);
-  for (const char letter : kAssetMagic) writer.put(letter);
-  writer.put(hasLook ? kAssetVersionWithLook : asset.rest ? kAssetVersionWithRest : kAssetVersion);
-  writer.put(std::uint32_t(hasLook ? kAssetLookHeaderBytes : kAssetHeaderBytes));
-  writer.put(std::uint64_t{0});  // the checksum's place
+  for (const char letter : kAssetMagic) writer.number(letter);
+  writer.number(kAssetVersionAligned);
+  writer.number(std::uint32_t(kAssetLookHeaderBytes));
+  writer.number(std::uint64_t{0});  // the checksum's place
   writer.startBody();
-  writer.put(asset.radius);
-  for (const std::uint64_t count : std::span(counts).first(hasLook ? kAssetArrays : kShapeArrays))
-    writer.put(count);
-  visitAssetFields(asset, names, [&writer](const auto& value) { writer.put(value); });
-  const std::uint64_t sum = writer.finish();
+  writer.number(asset.radius);
+  for (const std::uint64_t count : counts) writer.number(count);
+  visitAssetArrays(asset, names, writer);
+  const std::uint64_t sum = writer.checksum();
   partial.seek(kAssetChecksumOffset);
-  writer.put(sum);
-  writer.finish();
+  writer.number(sum);
   partial.takePlace();
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/asset_check.h"
+#include "base/asset_cell_walk.h"
 
 namespace rubble::base {
 namespace {
@@ -11,40 +11,6 @@ constexpr double kShapeTolerance = 1e-5;
 // An anchor's point lies on the surface and its element within [r]; less would make its spring stiffer than
 // any other.
 constexpr double kLeastAnchorDistance = 1e-3;
-
-// What the triangles of one cell say of it.
-struct CellShape {
-  Eigen::AlignedBox3d box;  // grown by the rounding [m]
-  double volume = 0;        // enclosed [m^3]
-  double outerArea = 0, innerArea = 0;
-  double volumeSlack = 0, areaSlack = 0;  // what the rounding of the vertices may have changed
-};
-
-CellShape measure(const Asset& asset, const AssetScale& scale, std::size_t i) {
-  const Cell& cell = asset.cells[i];
-  const Eigen::Vector3d origin = asset.positions[i];
-  CellShape shape;
-  const std::uint32_t count = cell.outerTriangles + cell.innerTriangles;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    std::array<Eigen::Vector3d, 3> p;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const CellCorner& corner = asset.corners[asset.triangles[cell.firstTriangle + t][c]];
-      p[c] = asset.vertices[corner.vertex].position.cast<double>() - origin;
-      shape.box.extend(p[c]);
-    }
-    const Eigen::Vector3d across = (p[1] - p[0]).cross(p[2] - p[0]);
-    shape.volume += p[0].dot(across) / 6;
-    (t < cell.outerTriangles ? shape.outerArea : shape.innerArea) += across.norm() / 2;
-  }
-  // Moving the vertices of a triangle by e turns edges l into l + 2 e at most, which adds 2 e (l + e) to its
-  // area; a surface that moves by e sweeps e times its area.
-  const double e = scale.rounding;
-  shape.areaSlack = 2 * e * double(count) * (shape.box.diagonal().norm() + e);
-  shape.volumeSlack = e * (shape.outerArea + shape.innerArea + shape.areaSlack);
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(e);
-  shape.box = Eigen::AlignedBox3d(shape.box.min() + origin - margin, shape.box.max() + origin + margin);
-  return shape;
-}
 
 void checkElement(const Asset& asset, const CellShape& shape, std::size_t i) {
   const double volume = asset.volumes[i];
@@ -65,10 +31,22 @@ void checkElement(const Asset& asset, const CellShape& shape, std::size_t i) {
                 ", a ball of its volume to its cell's bounds");
 }
 
+void checkFace(const Asset& asset, std::uint32_t f, std::size_t cell) {
+  const CellFace& face = asset.faces[f];
+  if (face.neighbour != kNoElement && face.neighbour >= asset.cells.size())
+    refuseAsset("faces[", f, "].neighbour is ", face.neighbour, "; allowed: 0 to ", asset.cells.size() - 1);
+  if (face.neighbour == cell)
+    refuseAsset("faces[", f, "].neighbour is ", cell, ", its own cell; allowed: another one");
+  checkArea(double(face.area), "faces", f, 0);
+  checkUnit(face.normal, "faces", f);
+  checkPlace(face.centroid, "faces", f, ".centroid");
+}
+
 void checkFaces(const Asset& asset, const CellShape& shape, std::size_t i) {
   double outer = 0, inner = 0;
   const Cell& cell = asset.cells[i];
   for (std::uint32_t f = cell.firstFace; f < cell.firstFace + cell.faceCount; ++f) {
+    checkFace(asset, f, i);
     const CellFace& face = asset.faces[f];
     const bool isOuter = face.neighbour == kNoElement;
     double& sum = isOuter ? outer : inner;
@@ -101,15 +79,17 @@ void checkAnchor(const Asset& asset, const CellShape& shape, std::size_t a) {
 
 }  // namespace
 
-void checkCellShapes(const Asset& asset, const AssetScale& scale) {
+void checkCells(const Asset& asset, const AssetScale& scale) {
+  CellWalk walk(asset, scale.rounding);
   std::size_t anchor = 0;
-  for (std::size_t i = 0; i < asset.elementCount(); ++i) {
-    const CellShape shape = measure(asset, scale, i);
+  for (std::uint32_t i = 0; i < asset.elementCount(); ++i) {
+    const CellShape shape = walk.enter(i);
     checkElement(asset, shape, i);
     checkFaces(asset, shape, i);
     for (; anchor < asset.anchors.size() && asset.anchors[anchor].element == i; ++anchor)
       checkAnchor(asset, shape, anchor);
   }
+  walk.finish();
 }
 
 }  // namespace rubble::base

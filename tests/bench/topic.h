@@ -38,6 +38,7 @@ const std::vector<BenchTopic>& benchTopics();
 /// The topic of that name. Throws demo::InputError, naming those there are.
 const BenchTopic& benchTopic(const std::string& name);
 
+BenchTopic assetTopic();
 BenchTopic cookTopic();
 BenchTopic cookStagesTopic();
 BenchTopic debrisTopic();

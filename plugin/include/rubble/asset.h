@@ -128,14 +128,15 @@ struct Asset {
   void validate() const;
 };
 
-/// Writes a versioned little-endian file with sizes and a checksum: version 3 if the asset has texture
-/// coordinates or materials; without them, so that earlier libraries read it too, version 2 if it keeps a
-/// static state and version 1 if not. The file appears whole or not at all, and nothing stays beside it.
+/// Writes a versioned little-endian file, version 4, with sizes and a checksum. Its arrays start at multiples
+/// of 8 bytes and are as in memory, so that it can be used where it is mapped (base/asset_format.h). The file
+/// appears whole or not at all, and nothing stays beside it.
 /// Throws rubble::Error naming the file and the reason: an asset that is not valid or would take more than 32
 /// GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file and trusts nothing in it: header, length and checksum are checked before the asset gets
-/// any memory, and the asset is validated. Throws rubble::Error naming the file and what is wrong with it.
+/// Reads such a file, or one of versions 1 to 3, and trusts nothing in it: header and length are checked before
+/// the asset gets any memory, then the checksum, and the asset is validated. Throws rubble::Error naming the
+/// file and what is wrong with it.
 Asset load(const std::filesystem::path& file);
 
 }  // namespace rubble

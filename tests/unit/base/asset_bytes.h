@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +23,8 @@ inline constexpr std::size_t kChecksumAt = 16;
 inline constexpr std::size_t kBodyAt = 24;
 inline constexpr std::size_t kRadiusAt = 24;
 inline constexpr std::size_t kCountsAt = 32;
-inline constexpr std::size_t kHeaderBytes = 96;
+inline constexpr std::size_t kHeaderBytes = 128;
+inline constexpr std::size_t kOldHeaderBytes = 96;  // of versions 1 and 2
 
 /// Little-endian, as the hosts of these tests are.
 template <class T>
@@ -37,10 +38,32 @@ T numberAt(const std::string& bytes, std::size_t at) {
   return value;
 }
 
+/// Versions 1 to 3: no gaps, the checksum of one lane.
+inline bool isOld(const std::string& bytes) {
+  return numberAt<std::uint32_t>(bytes, kVersionAt) <= 3;
+}
+
+/// The checksum of a file's body, word by word.
+inline std::uint64_t bodySum(const std::string& bytes) {
+  const auto step = [](std::uint64_t sum, std::uint64_t word) {
+    sum = (sum ^ word) * base::Fnv1a::kPrime;
+    return sum ^ sum >> 32;
+  };
+  std::vector<std::uint64_t> lanes(isOld(bytes) ? 1 : 8, base::Fnv1a::kOffsetBasis);
+  for (std::size_t at = kBodyAt, word = 0; at < bytes.size(); at += 8, ++word) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
+    lanes[word % lanes.size()] = step(lanes[word % lanes.size()], value);
+  }
+  if (lanes.size() == 1) return lanes[0];
+  std::uint64_t sum = base::Fnv1a::kOffsetBasis;
+  for (const std::uint64_t lane : lanes) sum = step(sum, lane);
+  return sum;
+}
+
 /// Makes the checksum right again.
 inline void seal(std::string& bytes) {
-  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  setNumber(bytes, kChecksumAt, base::checksum(std::span(data, bytes.size()).subspan(kBodyAt)));
+  setNumber(bytes, kChecksumAt, bodySum(bytes));
 }
 
 inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
@@ -67,7 +90,7 @@ inline void expectHas(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << '"' << text << "\" lacks: " << words;
 }
 
-enum class NumberKind { Index, Float, Double };
+enum class NumberKind { Index, Float, Double, Gap };
 /// Where a number stands in the file.
 struct NumberPlace {
   std::string name;
@@ -75,7 +98,7 @@ struct NumberPlace {
   NumberKind kind;
 };
 
-/// All numbers of the file's body but the counts.
+/// All numbers of the file's body but the counts, of a file without look and static state.
 inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
   using enum NumberKind;
   struct Table {
@@ -88,7 +111,7 @@ inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
       {"volumes", 0, {Double}},
       {"gyrations", 0, {Double}},
       {"springs", 1, {Index, Index, Double}},
-      {"anchors", 2, {Index, Double, Double, Double, Double}},
+      {"anchors", 2, {Index, Gap, Double, Double, Double, Double}},
       {"vertices", 3, {Float, Float, Float, Index, Index, Index, Index}},
       {"corners", 4, {Index, Index, Float, Float, Float}},
       {"triangles", 5, {Index, Index, Index}},
@@ -96,14 +119,19 @@ inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
       {"cells", 7, {Index, Index, Index, Index, Index}},
   };
   std::vector<NumberPlace> places = {{"radius", kRadiusAt, Double}};
-  std::size_t at = kHeaderBytes;
-  for (const Table& table : tables)
+  const bool old = isOld(bytes);
+  std::size_t at = old ? kOldHeaderBytes : kHeaderBytes;
+  for (const Table& table : tables) {
     for (std::uint64_t k = 0; k < numberAt<std::uint64_t>(bytes, kCountsAt + 8 * table.count); ++k)
       for (std::size_t f = 0; f < table.record.size(); ++f) {
-        places.push_back({std::string(table.name) + '[' + std::to_string(k) + "] number " + std::to_string(f),
-                          at, table.record[f]});
-        at += table.record[f] == Double ? 8 : 4;
+        if (table.record[f] != Gap)
+          places.push_back(
+              {std::string(table.name) + '[' + std::to_string(k) + "] number " + std::to_string(f), at,
+               table.record[f]});
+        if (table.record[f] != Gap || !old) at += table.record[f] == Double ? 8 : 4;
       }
+    if (!old) at = (at + 7) / 8 * 8;
+  }
   return places;
 }
 

@@ -1,5 +1,4 @@
-// Texture coordinates and materials in an asset's file: sections of version 3, believed no more than the
-// rest.
+// Texture coordinates and materials in an asset's file: optional, and believed no more than the rest.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +12,6 @@ namespace rubble::test {
 namespace {
 
 constexpr std::size_t kBallElements = 12;
-constexpr std::size_t kLookHeaderBytes = kHeaderBytes + 4 * 8;
 // Which of the header's counts.
 constexpr std::size_t kUvs = 8, kMaterials = 9, kNameBytes = 10, kRest = 11;
 constexpr std::size_t kNames = 8;  // bytes of "one" and "two", each with its end
@@ -26,8 +24,6 @@ class LookSection : public testing::Test {
     std::filesystem::create_directories(m_folder);
     m_file = m_folder / "box.asset";
     SurfaceMesh mesh = boxMesh({1, 1, 1});
-    save(cookStrictly(mesh, optionsFor(kBallElements)), m_file);
-    m_bare = fileBytes(m_file);
     mesh.materialNames = {"one", "two"};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       mesh.materials.push_back(std::uint16_t(t / 2 % 2));  // of both triangles of a side
@@ -36,9 +32,12 @@ class LookSection : public testing::Test {
     m_asset = cookStrictly(mesh, optionsFor(kBallElements));
     save(m_asset, m_file);
     m_bytes = fileBytes(m_file);
-    m_uvsAt = m_bytes.size() - kNames - 2 * m_asset.materials.size() - 8 * m_asset.uvs.size();
+    m_uvsAt = m_bytes.size() - kNames - materialBytes() - 8 * m_asset.uvs.size();
   }
   ~LookSection() override { std::filesystem::remove_all(m_folder); }
+
+  // With the gap behind them.
+  std::size_t materialBytes() const { return (m_asset.materials.size() + 3) / 4 * 8; }
 
   template <class T>
   std::string refusalWith(std::size_t at, T value) const {
@@ -49,7 +48,7 @@ class LookSection : public testing::Test {
 
   std::filesystem::path m_folder, m_file;
   Asset m_asset;
-  std::string m_bare, m_bytes;  // the files without and with it
+  std::string m_bytes;
   std::size_t m_uvsAt;
 };
 
@@ -78,7 +77,6 @@ TEST_F(LookSection, ComesBackWithAStaticStateAndInEveryPart) {
     if ((parts & kHasMaterials) == 0) asset.materials.clear();
     asset.rest = rest;
     save(asset, m_file);
-    EXPECT_EQ(numberAt<std::uint32_t>(fileBytes(m_file), kVersionAt), parts == 0 ? 2u : 3u);
     const Asset read = load(m_file);
     EXPECT_EQ(read.uvs, asset.uvs);
     EXPECT_EQ(read.materials, asset.materials);
@@ -88,17 +86,20 @@ TEST_F(LookSection, ComesBackWithAStaticStateAndInEveryPart) {
   }
 }
 
-// Without it the file is what it was before there were such sections; with it, it has just them more.
-TEST_F(LookSection, IsOptionalAndOfItsOwnVersion) {
-  EXPECT_EQ(numberAt<std::uint32_t>(m_bare, kVersionAt), 1u);
-  EXPECT_EQ(numberAt<std::uint32_t>(m_bytes, kVersionAt), 3u);
-  EXPECT_EQ(m_bytes.size(), m_uvsAt + 8 * m_asset.uvs.size() + 2 * m_asset.materials.size() + kNames);
+// With it, the file has just these arrays more.
+TEST_F(LookSection, IsOptional) {
+  Asset bare = m_asset;
+  bare.uvs.clear(), bare.materials.clear(), bare.materialNames.clear();
+  save(bare, m_file);
+  const std::string bareBytes = fileBytes(m_file);
+  ASSERT_EQ(m_bytes.size(), bareBytes.size() + 8 * m_asset.uvs.size() + materialBytes() + kNames);
+  EXPECT_TRUE(m_bytes.substr(kHeaderBytes, m_uvsAt - kHeaderBytes) == bareBytes.substr(kHeaderBytes));
   EXPECT_EQ(m_bytes.substr(m_bytes.size() - kNames), std::string("one\0two\0", kNames));
   EXPECT_EQ(m_bytes.substr(m_uvsAt, 4), std::string(reinterpret_cast<const char*>(m_asset.uvs.data()), 4));
 }
 
 TEST_F(LookSection, IsRefusedCutOffAnywhere) {
-  for (std::size_t size = 0; size < m_bytes.size(); size += size < 2 * kLookHeaderBytes ? 1 : 997)
+  for (std::size_t size = 0; size < m_bytes.size(); size += size < 2 * kHeaderBytes ? 1 : 997)
     EXPECT_FALSE(
         refusalOf(m_file, m_bytes.substr(0, size).append(size < kBodyAt ? kBodyAt - size : 0, ' ')).empty())
         << size;

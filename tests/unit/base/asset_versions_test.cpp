@@ -1,0 +1,157 @@
+// Version 4 of the asset file can be used where it is mapped; versions 1 to 3 are still read.
+#include <gtest/gtest.h>
+
+#include "support/grid_asset.h"
+#include "unit/base/asset_old_bytes.h"
+#include "unit/cook/shapes.h"
+
+namespace rubble::test {
+namespace {
+
+class AssetVersions : public testing::Test {
+ protected:
+  AssetVersions() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    m_folder = std::filesystem::path(testing::TempDir()) / ("rubble_asset_versions_" + name);
+    std::filesystem::create_directories(m_folder);
+    m_file = m_folder / "box.asset";
+    // Odd numbers of springs, vertices, triangles and materials: gaps are needed.
+    m_asset = gridAsset({{3, 1, 1}, 0.5, Eigen::Vector3d(1, 2, 3), true});
+    save(m_asset, m_file);
+    m_bytes = fileBytes(m_file);
+  }
+
+  ~AssetVersions() override { std::filesystem::remove_all(m_folder); }
+
+  // With everything that a file can hold.
+  Asset wholeAsset() const {
+    Asset asset = m_asset;
+    asset.uvs.assign(asset.corners.size(), Eigen::Vector2f(0.25f, -3));
+    asset.materialNames = {"stone", ""};
+    for (const Cell& cell : asset.cells) {
+      asset.materials.insert(asset.materials.end(), cell.outerTriangles, 1);
+      asset.materials.insert(asset.materials.end(), cell.innerTriangles, 2);
+    }
+    addRest(asset);
+    return asset;
+  }
+  static void addRest(Asset& asset) {
+    asset.rest.emplace();
+    asset.rest->key = 0x0123456789abcdefu;
+    asset.rest->displacements.assign(asset.elementCount(), Eigen::Vector3d(0, -1e-4, -0.0));
+    asset.rest->rotations.assign(asset.elementCount(), Eigen::Quaterniond(0.8, 0, 0.6, 0));
+  }
+  void expectRead(const Asset& asset, std::uint32_t version) {
+    const std::string old = oldBytesOf(asset);
+    ASSERT_EQ(numberAt<std::uint32_t>(old, kVersionAt), version);
+    save(asset, m_file);
+    const std::string present = fileBytes(m_file);
+    writeBytes(m_file, old);
+    save(load(m_file), m_file);
+    EXPECT_TRUE(fileBytes(m_file) == present);
+    for (const std::size_t at : {kRadiusAt, kOldHeaderBytes + 3, old.size() - 1}) {
+      std::string flipped = old;
+      flipped[at] = char(flipped[at] ^ 1);
+      writeBytes(m_file, flipped);
+      EXPECT_NE(refusal(m_file), "") << at;
+    }
+  }
+
+  std::filesystem::path m_folder, m_file;
+  Asset m_asset;
+  std::string m_bytes;
+};
+
+TEST_F(AssetVersions, EarlierOnesHoldWhatTheyDid) {
+  expectRead(m_asset, 1);
+  const Asset whole = wholeAsset();
+  expectRead(whole, 3);
+  addRest(m_asset);
+  expectRead(m_asset, 2);
+}
+
+TEST_F(AssetVersions, OneDoesNotPassForAnother) {
+  const Asset whole = wholeAsset();
+  save(whole, m_file);
+  std::string bytes = fileBytes(m_file);
+  setNumber(bytes, kVersionAt, std::uint32_t(3));
+  expectHas(refusalOf(m_file, bytes), "is damaged: ");
+  bytes = oldBytesOf(whole);
+  setNumber(bytes, kVersionAt, std::uint32_t(4));
+  expectHas(refusalOf(m_file, bytes), "is cut off or damaged: ");
+}
+
+// Whoever maps the file finds the arrays as they are in memory, at addresses that suit their numbers.
+TEST_F(AssetVersions, ArraysCanBeUsedWhereTheyAre) {
+  const Asset asset = wholeAsset();
+  save(asset, m_file);
+  const std::string bytes = fileBytes(m_file);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, kVersionAt), 4u);
+  std::size_t at = kHeaderBytes;
+  const auto expectArray = [&](const auto& records) {
+    const std::size_t size = records.size() * sizeof(records[0]);
+    ASSERT_LE(at + size, bytes.size());
+    EXPECT_EQ(bytes.compare(at, size, reinterpret_cast<const char*>(records.data()), size), 0) << at;
+    at = (at + size + 7) / 8 * 8;
+  };
+  expectArray(asset.positions), expectArray(asset.volumes), expectArray(asset.gyrations);
+  expectArray(asset.springs);
+  for (const AssetAnchor& anchor : asset.anchors) {
+    EXPECT_EQ(numberAt<std::uint32_t>(bytes, at), anchor.element);
+    EXPECT_EQ(numberAt<double>(bytes, at + offsetof(AssetAnchor, area)), anchor.area);
+    EXPECT_EQ(numberAt<double>(bytes, at + offsetof(AssetAnchor, point) + 16), anchor.point.z());
+    at += sizeof(AssetAnchor);
+  }
+  expectArray(asset.vertices), expectArray(asset.corners), expectArray(asset.triangles);
+  expectArray(asset.faces), expectArray(asset.cells), expectArray(asset.uvs), expectArray(asset.materials);
+  expectArray(std::string("stone\0\0", 7));
+  EXPECT_EQ(numberAt<std::uint64_t>(bytes, at), asset.rest->key);
+  at += 8;
+  expectArray(asset.rest->displacements), expectArray(asset.rest->rotations);
+  EXPECT_EQ(at, bytes.size());
+}
+
+TEST_F(AssetVersions, GapsHoldNothing) {
+  const Asset asset = wholeAsset();
+  save(asset, m_file);
+  const std::string bytes = fileBytes(m_file);
+  const std::size_t anchorsAt = kHeaderBytes + 40 * asset.positions.size() + 16 * asset.springs.size();
+  const std::size_t namesEnd = bytes.size() - 56 * asset.elementCount() - 8;  // seven bytes of names
+  for (const std::size_t gap : {anchorsAt + 4, anchorsAt + 40 + 7, namesEnd - 1}) {
+    ASSERT_EQ(bytes[gap], 0);
+    std::string bad = bytes;
+    bad[gap] = 1;
+    expectHas(refusalOf(m_file, bad), "box.asset: is damaged: bytes between its arrays are not zero");
+  }
+  // A file that ends in the middle of a gap.
+  Asset named = m_asset;
+  named.materialNames = {"stone", ""};
+  save(named, m_file);
+  const std::string short1 = fileBytes(m_file).substr(0, fileBytes(m_file).size() - 1);
+  expectHas(refusalOf(m_file, short1), "7 bytes of names do not fit into the file's");
+}
+
+// Counts whose bytes, gaps included, wrap round to few.
+TEST_F(AssetVersions, CountsThatWrapRoundAreRefused) {
+  for (std::size_t array = 0; array < 11; ++array)
+    for (const std::uint64_t count :
+         {~std::uint64_t(0), ~std::uint64_t(0) / 40, ~std::uint64_t(0) / 20 + 1, std::uint64_t(1) << 63,
+          std::uint64_t(1) << 62, std::uint64_t(m_bytes.size())}) {
+      std::string bytes = m_bytes;
+      setNumber(bytes, kCountsAt + 8 * array, count);
+      expectHas(refusalOf(m_file, bytes), "do not fit into the file");
+    }
+}
+
+// The checksum of a whole file covers every byte behind it.
+TEST_F(AssetVersions, AnyByteChangedIsRefused) {
+  for (std::size_t at = 0; at < m_bytes.size(); ++at) {
+    std::string bytes = m_bytes;
+    bytes[at] = char(bytes[at] ^ 0x80);
+    writeBytes(m_file, bytes);
+    EXPECT_NE(refusal(m_file), "") << at;
+  }
+}
+
+}  // namespace
+}  // namespace rubble::test
