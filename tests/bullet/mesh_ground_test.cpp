@@ -210,6 +210,7 @@ TEST(MeshGround, RubbleAndDebrisStayAbove) {
   def.debris = true;
   BulletWorld w(def);
   w.world.removeRigidBody(w.ground);
+  delete w.ground;
   w.add(0, shape, {0, 0, 0});
   Material weak = material("concrete_soft");
   DestructibleBodyDef wall;
