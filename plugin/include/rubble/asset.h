@@ -134,9 +134,9 @@ struct Asset {
 /// Throws rubble::Error naming the file and the reason: an asset that is not valid or would take more than 32
 /// GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file, or one of versions 1 to 3, and trusts nothing in it: header and length are checked before
-/// the asset gets any memory, then the checksum, and the asset is validated. Throws rubble::Error naming the
-/// file and what is wrong with it.
+/// Reads such a file, or one of versions 1 to 3, and trusts nothing in it: header and length are checked
+/// before the asset gets any memory, then the checksum, and the asset is validated. Throws rubble::Error
+/// naming the file and what is wrong with it.
 Asset load(const std::filesystem::path& file);
 
 }  // namespace rubble
