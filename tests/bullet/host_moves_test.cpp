@@ -15,7 +15,7 @@ constexpr btScalar kMoveTick = btScalar(1) / 240;
 // 3 x 2 x 2 cubes of 0.1 m in free space: its inertia about x, y and z is m / 12 times the sums of squares of
 // the other edges.
 struct FreeBlock : BulletWorld {
-  explicit FreeBlock(const btVector3& gravity = {0, 0, 0}) {
+  explicit FreeBlock(const btVector3& gravity = {0, 0, 0}, Regime regime = Regime::Elements) {
     world.setGravity(gravity);
     DestructibleBodyDef def;
     GridAssetDef grid;
@@ -24,6 +24,7 @@ struct FreeBlock : BulletWorld {
     def.asset = std::make_shared<const Asset>(gridAsset(grid));
     def.material = material("concrete_soft");
     def.transform.setOrigin({0, btScalar(kHeight), 0});
+    def.regime = regime;
     block = destruction->addBody(def);
     mass = block->elementMass();
     step(2);
@@ -166,6 +167,21 @@ TEST(HostMoves, ACrateThatSleepsOnARemovedBodyFalls) {
   w.destruction->removeBody(w.block);
   w.step(120);
   EXPECT_NEAR(double(crate->getWorldTransform().getOrigin().y()), 0.05, 5e-3);
+}
+
+TEST(HostMoves, ACrateThatSleepsOnARemovedWholeBodyFalls) {
+  FreeBlock w({0, btScalar(-9.81), 0}, Regime::RigidUntilStruck);
+  btBoxShape tableShape({1, btScalar(0.1), 1}), crateShape({btScalar(0.05), btScalar(0.05), btScalar(0.05)});
+  w.add(0, tableShape, {0, btScalar(FreeBlock::kHeight - 0.1), 0});
+  constexpr double kOn = FreeBlock::kHeight + 0.25;
+  btRigidBody* crate = w.add(2, crateShape, {btScalar(0.15), btScalar(kOn), btScalar(0.1)});
+  w.step(1500);
+  ASSERT_TRUE(w.block->isWhole());
+  ASSERT_FALSE(crate->isActive());
+  ASSERT_NEAR(double(crate->getWorldTransform().getOrigin().y()), kOn, 0.01);
+  w.destruction->removeBody(w.block);
+  w.step(120);
+  EXPECT_LT(double(crate->getWorldTransform().getOrigin().y()), FreeBlock::kHeight + 0.06);
 }
 
 }  // namespace
