@@ -271,8 +271,8 @@ double CaseWorld::lightest() const {
   return m_lightest;
 }
 double CaseWorld::roundedEnergy() const {
-  constexpr double kFloat = std::numeric_limits<float>::epsilon();
-  return 4 * kFloat * m_mass * m_case.gravity * (m_case.distance + 100 * m_case.radius);
+  constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
+  return 4 * kEpsilon * m_mass * m_case.gravity * (m_case.distance + 100 * m_case.radius);
 }
 
 }  // namespace rubble::stability
