@@ -192,6 +192,41 @@ TYPED_TEST(Sleep, WhatRocksComesToRest) {
   EXPECT_GT(ticks, int(2 / kFrame));
 }
 
+TYPED_TEST(Sleep, APieceThatRocksOnItsFootSleepsSoon) {
+  this->make(0.25, 0.5);
+  edem::BodyDef def = block({2, 8, 1}, false, kEdge);
+  def.material.friction = 0.9;
+  def.material.restitution = 0;
+  def.transform = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()) * Eigen::Isometry3d::Identity();
+  this->solver->addBody(def, kNoGravity);
+  int ticks = 0;
+  for (; ticks < 600 && this->solver->view(0).sleepingCount == 0; ++ticks) this->tick(1);
+  EXPECT_EQ(this->solver->view(0).sleepingCount, 16u);
+  EXPECT_LT(ticks, int(3 / kFrame));
+}
+
+TYPED_TEST(Sleep, WhatTopplesSlowlyFallsAsIfNothingSlept) {
+  // Its centre beyond its edge by a tenth of the half breadth: slower than 0.25 m/s for half a second.
+  edem::BodyDef def = block({1, 8, 1}, false, kEdge);
+  def.material.youngsModulus = 1e9;
+  const double lean = 1.1 * std::atan(1.0 / 8);
+  const Eigen::Vector3d foot(kEdge, 0, 0);
+  def.transform = Eigen::Translation3d(foot) * Eigen::AngleAxisd(-lean, Eigen::Vector3d::UnitZ()) *
+                  Eigen::Translation3d(-foot);
+  def.material.friction = 0.9;
+  def.material.restitution = 0;
+  const auto top = [&](double settleSpeed, double seconds) {
+    this->make(settleSpeed, 0.5);
+    this->solver->addBody(def, kNoGravity);
+    this->proxies = {ground()};
+    this->tick(int(seconds / kFrame));
+    return this->solver->position(0, 7).y();
+  };
+  const double began = top(0, 0.02), fallen = top(0, 1.3);
+  ASSERT_LT(fallen, 0.7 * began);
+  EXPECT_NEAR(top(0.25, 1.3), fallen, 0.01 * began);
+}
+
 TYPED_TEST(Sleep, ARunIsTheSameUpToWhereTheFirstFallsAsleep) {
   // What sleeps took no force before, so that sleep changes nothing until then.
   edem::SolverDef def;

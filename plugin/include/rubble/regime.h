@@ -10,9 +10,10 @@ enum class Regime {
   /// does. The elements take over in the very tick in which something is about to strike it with a stress of
   /// half its tensile strength, with both momenta. If it does not break and is calm for a quarter of a second
   /// (slow, without tremor, no spring stressed to half its strength), it is Bullet's again: in the shape it
-  /// had, with both momenta and the application's settings, until it is struck the next time. One that broke
-  /// stays elements. Only convex solids; others are elements, which is logged. What rests on a whole body
-  /// does not break it yet.
+  /// had, with both momenta and the application's settings, until it is struck the next time. One that has
+  /// come apart stays elements. Loads that rest on it, its own weight if it is anchored included, hand it to
+  /// its elements too, where beam theory finds half its strength. Only convex solids; others are elements,
+  /// which is logged.
   RigidUntilStruck,
 };
 
