@@ -9,6 +9,7 @@
 #include "bullet/element_shape.h"
 #include "bullet/host_settings.h"
 #include "bullet/load_gauge.h"
+#include "bullet/shown.h"
 #include "bullet/whole_shape.h"
 #include "debris/spawn.h"
 #include "rubble/destructible_body.h"
@@ -47,6 +48,8 @@ struct DestructibleBody::Impl {
   std::string name;                                      ///< for messages: "body 3 (concrete, 2 m tall)"
   std::string advice;                                    ///< why it will not last; empty if nothing is known
   btVector3 shownVelocity{0, 0, 0}, shownSpin{0, 0, 0};  ///< to the application, while it is elements
+  btTransform shownPlace = btTransform::getIdentity();   ///< the same
+  bullet::Shown shown;                                   ///< what of it that is
   double speed = 0;                      ///< of its fastest element when the last tick ended [m/s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };

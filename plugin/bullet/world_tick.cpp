@@ -110,7 +110,11 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   body->impl().whole.mass = mass;
   body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
   if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
-  if (!body->isWhole()) bullet::beElements(*body);
+  body->impl().shape->setObject(*body);
+  if (!body->isWhole()) {
+    bullet::beElements(*body);
+    showElements(*body);
+  }
   world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
   world.addConstraint(body->impl().coupler.get());
   bodies.push_back(body);

@@ -103,6 +103,8 @@ struct Destruction::Impl {
   /// Takes what the application has set of bodies that their elements move, and shows it what they do.
   void takeHostMoves(double dt);
   void showElements();
+  void showElements(DestructibleBody& body);
+  btTransform placeOfShown(DestructibleBody& body, const edem::RigidMotion& motion) const;
   void closeLedger(double dt);
   /// Ends the simulation when what should take energy makes more than was put in.
   void judgeDamping();

@@ -8,10 +8,11 @@
 namespace rubble::edem {
 
 template <class Real>
-void pushWhole(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin, Books& books) {
-  const Eigen::Vector3d centre = wholeMotion(body).centre;
+void pushWhole(Body<Real>& body, std::uint32_t root, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& spin, Books& books) {
+  const Eigen::Vector3d centre = wholeMotion(body, root).centre;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
+    if (!body.alive[i] || (root != kNoElement && body.fragment[i] != root)) continue;
     const Eigen::Vector3d arm = body.worldPosition(i) - centre;
     pushElement(body, i, body.mass[i] * (velocity + spin.cross(arm)), body.inertia[i] * spin, books);
   }
@@ -46,8 +47,8 @@ void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
   books.angular += angularNow - angular;
 }
 
-template void pushWhole(Body<float>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
-template void pushWhole(Body<double>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void pushWhole(Body<float>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void pushWhole(Body<double>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
 template void moveWhole(Body<float>&, const Eigen::Isometry3d&, Books&);
 template void moveWhole(Body<double>&, const Eigen::Isometry3d&, Books&);
 
