@@ -41,6 +41,7 @@ void beElements(DestructibleBody& body) {
   // Of what the application does to it; the elements take that from there.
   body.setLinearFactor(body.impl().settings.linearFactor);
   body.setAngularFactor(body.impl().settings.angularFactor);
+  body.impl().fixed = body.impl().held;
   body.updateInertiaTensor();
   // Bullet's solver makes no contact rows against this body; its manifolds are ours.
   body.setContactProcessingThreshold(-BT_LARGE_FLOAT);

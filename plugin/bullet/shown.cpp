@@ -23,6 +23,24 @@ std::uint32_t heaviestFragment(const edem::BodyView& view) {
   return heaviest == masses.end() ? kNoElement : heaviest->first;
 }
 
+// To Bullet's joints an anchored body is as heavy as the world.
+void holdAnchored(DestructibleBody& body) {
+  DestructibleBody::Impl& own = body.impl();
+  const bool fixed = own.jointed && own.shown.anchored;
+  if (fixed && !own.fixed) {
+    own.freeLinear = body.getLinearFactor();
+    own.freeAngular = body.getAngularFactor();
+    body.setLinearFactor({0, 0, 0});
+    body.setAngularFactor({0, 0, 0});
+  } else if (own.fixed && !fixed && (own.jointed || !own.held)) {
+    body.setLinearFactor(own.freeLinear);
+    body.setAngularFactor(own.freeAngular);
+  } else {
+    return;
+  }
+  own.fixed = fixed;
+}
+
 }  // namespace
 
 // A body in one piece has the frame that it has as a whole, so that what is fixed in that stays where it is;
@@ -37,7 +55,9 @@ btTransform Destruction::Impl::placeOfShown(DestructibleBody& body, const edem::
     shown.turning = view.fragments > 1 ? heaviestFragment(view) : kNoElement;
   }
   const bool complete = view.fragments == 1 && view.crushed == 0;
-  const edem::Placement at = solver->placement(own.id, shown.turning);
+  const edem::Placement at =
+      solver->placement(own.id, shown.fragment != kNoElement ? shown.fragment : shown.turning);
+  shown.anchored = at.anchored;
   shown.frame = own.whole.frame;
   if (!complete || !own.whole.shape) shown.frame.translation() = at.restCentre;
   Eigen::Isometry3d place = at.place * shown.frame;
@@ -55,11 +75,15 @@ void Destruction::Impl::showElements(DestructibleBody& body) {
   DestructibleBody::Impl& own = body.impl();
   const bool asleep = solver->view(own.id).asleep || !failure.empty();
   const edem::RigidMotion motion = asleep ? edem::RigidMotion() : solver->motion(own.id, own.shown.fragment);
+  const Eigen::Isometry3d frame = own.shown.frame;
   if (motion.mass > 0) own.shownPlace = placeOfShown(body, motion);
+  if (own.jointed && !(frame.matrix() == own.shown.frame.matrix()))
+    moveJointFrames(body, toBullet(own.shown.frame.inverse(Eigen::Isometry) * frame));
   own.shownVelocity = toBullet(motion.velocity);
   own.shownSpin = toBullet(motion.spin);
   bullet::showInBullet(body, own.shownPlace, own.shownVelocity, own.shownSpin);
   if (!(motion.mass > 0)) return;
+  holdAnchored(body);
   // By the diagonal, in the body's axes, of what impulses turn it by.
   const Eigen::Matrix3d axes = toEigen(own.shownPlace).linear();
   const Eigen::Vector3d turns = (axes.transpose() * motion.inertia.inverse() * axes).diagonal();

@@ -15,6 +15,7 @@ struct Shown {
   std::uint32_t turning = kNoElement;   ///< the fragment whose rotation it has: the heaviest
   /// Bullet's frame in the asset's, as far as that follows what is seen.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  bool anchored = false;  ///< an anchor holds some of it
   /// Springs broken and elements crushed when the fragments were last looked at; none: never.
   std::optional<std::pair<std::uint32_t, std::uint32_t>> damage;
 };

@@ -245,6 +245,8 @@ void Destruction::Impl::advance(double dt) {
   if (!solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
+  gatherJoints();
+  loadJoints(dt);
   gatherProxies(dt);
   energyAlarm.begin(proxies);
   std::vector<edem::RigidProxy> start = proxies;
@@ -256,6 +258,7 @@ void Destruction::Impl::advance(double dt) {
   times.edem -= solver->report().listing;
   if (!solver->failure().empty()) failSolver();
   followElements();
+  poseJoints(dt);
   if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
     def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
@@ -295,6 +298,7 @@ void Destruction::Impl::finish(double dt) {
     lateImpulses();
     noteReactions(dt);
     fixPositions();
+    takeJoints(dt);
     writeAppliedImpulses();
     const base::ScopeTimer timer(times.fracture);
     bookEvents();
@@ -312,6 +316,7 @@ void Destruction::Impl::finish(double dt) {
   failSpoiled();
   if (failure.empty()) placeWholes();
   updateSleep(dt);
+  for (DestructibleBody* body : bodies) body->impl().inSolver = false;
   advanced = lookedForBlows = false;
 }
 

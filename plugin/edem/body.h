@@ -17,6 +17,7 @@
 #include "edem/cell_faces.h"
 #include "edem/contact.h"
 #include "edem/criterion.h"
+#include "edem/host_load.h"
 #include "edem/spring.h"
 #include "edem/types.h"
 #include "rubble/asset.h"
@@ -137,9 +138,10 @@ struct Body {
   /// How long each element has been slower than SolverDef::sleepSpeed, and than settleSpeed [s].
   std::vector<float> calmTime, slowTime;
   std::uint32_t sleepingCount = 0;
-  double energyAsleep = 0;  ///< in the springs of those [J]
-  bool asleep = false;      ///< all of it, by its host
-  bool parked = false;      ///< lent to the host, asleep too (parking.h)
+  double energyAsleep = 0;          ///< in the springs of those [J]
+  std::vector<HostLoad> hostLoads;  ///< until the tick ends
+  bool asleep = false;              ///< all of it, by its host
+  bool parked = false;              ///< lent to the host, asleep too (parking.h)
   /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
   std::vector<Vec3<Real>> parkedAt;
   std::vector<Quat<Real>> parkedTurn;

@@ -18,6 +18,43 @@ void pushWhole(Body<Real>& body, std::uint32_t root, const Eigen::Vector3d& velo
   }
 }
 
+namespace {
+
+template <class Real>
+double powerOf(const Body<Real>& body, const HostLoad& load) {
+  return load.force.dot(body.velocity[load.element].template cast<double>()) +
+         load.torque.dot(body.spin[load.element].template cast<double>());
+}
+
+template <class Real>
+bool takes(const Body<Real>& body, const HostLoad& load) {
+  return body.alive[load.element] && !body.sleeping[load.element];
+}
+
+}  // namespace
+
+template <class Real>
+void addHostLoads(Body<Real>& body, double kick, Books& books) {
+  for (const HostLoad& load : body.hostLoads) {
+    if (!takes(body, load)) continue;
+    const std::uint32_t i = load.element;
+    body.force[i] += load.force.cast<Real>();
+    body.torque[i] += load.torque.cast<Real>();
+    const Eigen::Vector3d at = body.origin + body.position[i];
+    FragmentMotion& motion = body.motions[body.motionOf[i]];
+    motion.force += load.force;
+    motion.torque += (at - motion.centre).cross(load.force) + load.torque;
+    books.bullet.push(kick, load.force, at - books.centre, load.torque);
+    books.bullet.work.add(0.5 * kick * powerOf(body, load), 0);
+  }
+}
+
+template <class Real>
+void bookHostLoads(const Body<Real>& body, double kick, Books& books) {
+  for (const HostLoad& load : body.hostLoads)
+    if (takes(body, load)) books.bullet.work.add(0, 0.5 * kick * powerOf(body, load));
+}
+
 template <class Real>
 void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
   const auto momenta = [&] {
@@ -49,6 +86,10 @@ void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
 
 template void pushWhole(Body<float>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
 template void pushWhole(Body<double>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void addHostLoads(Body<float>&, double, Books&);
+template void addHostLoads(Body<double>&, double, Books&);
+template void bookHostLoads(const Body<float>&, double, Books&);
+template void bookHostLoads(const Body<double>&, double, Books&);
 template void moveWhole(Body<float>&, const Eigen::Isometry3d&, Books&);
 template void moveWhole(Body<double>&, const Eigen::Isometry3d&, Books&);
 

@@ -124,6 +124,11 @@ class SolverOf final : public Solver {
     moveWhole(body, by, m_world.books);
   }
 
+  void load(std::uint32_t id, std::span<const HostLoad> loads) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    body.hostLoads.insert(body.hostLoads.end(), loads.begin(), loads.end());
+  }
+
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
     Body<Real>& body = *m_world.bodies[placeOf(id)];

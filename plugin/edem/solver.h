@@ -87,6 +87,8 @@ class Solver {
   virtual void pushAll(std::uint32_t id, std::uint32_t root, const Eigen::Vector3d& velocity,
                        const Eigen::Vector3d& spin) = 0;
   virtual void move(std::uint32_t id, const Eigen::Isometry3d& by) = 0;
+  /// Presses elements of a body all through its next tick. Booked as the host's; wakes nothing.
+  virtual void load(std::uint32_t id, std::span<const HostLoad> loads) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
   /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;
