@@ -240,7 +240,10 @@ std::uint64_t World::hash() const {
   for (int i = 0; i < m_world->getNumCollisionObjects(); ++i) {
     const btCollisionObject* object = m_world->getCollisionObjectArray()[i];
     if (!btRigidBody::upcast(object)) continue;
-    const btTransform& pose = object->getWorldTransform();
+    // That of a body of elements tells nothing that those do not.
+    const DestructibleBody* body = DestructibleBody::upcast(object);
+    const btTransform pose =
+        body && !body->isWhole() ? btTransform::getIdentity() : object->getWorldTransform();
     for (int row = 0; row < 3; ++row) {
       // Three of Bullet's four scalars: the last one is padding.
       for (int column = 0; column < 3; ++column) hash.add(pose.getBasis()[row][column]);

@@ -9,6 +9,7 @@
 #include "bullet/element_shape.h"
 #include "bullet/host_settings.h"
 #include "bullet/load_gauge.h"
+#include "bullet/shown.h"
 #include "bullet/whole_shape.h"
 #include "debris/spawn.h"
 #include "rubble/destructible_body.h"
@@ -47,6 +48,16 @@ struct DestructibleBody::Impl {
   std::string name;                                      ///< for messages: "body 3 (concrete, 2 m tall)"
   std::string advice;                                    ///< why it will not last; empty if nothing is known
   btVector3 shownVelocity{0, 0, 0}, shownSpin{0, 0, 0};  ///< to the application, while it is elements
+  btTransform shownPlace = btTransform::getIdentity();   ///< the same
+  bullet::Shown shown;                                   ///< what of it that is
+  bool jointed = false;                                  ///< joints of the application hold it
+  bool inSolver = false;                                 ///< Bullet has solved its island in this tick
+  /// What its joints' loads have given it in this tick, as one [m/s], [rad/s].
+  Eigen::Vector3d jointVelocity = Eigen::Vector3d::Zero(), jointSpin = Eigen::Vector3d::Zero();
+  /// Of its joints' impulses about its centre when the tick began [N m s].
+  Eigen::Vector3d jointAngular = Eigen::Vector3d::Zero();
+  bool fixed = false;                                   ///< to Bullet's joints: anchors hold what they do
+  btVector3 freeLinear{1, 1, 1}, freeAngular{1, 1, 1};  ///< its factors when it is not
   double speed = 0;                      ///< of its fastest element when the last tick ended [m/s]
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };

@@ -18,9 +18,10 @@ bool hasGyroscopicTerm(const btVector3& inertia) {
 
 }  // namespace
 
-void showInBullet(DestructibleBody& body, const btVector3& velocity, const btVector3& spin) {
-  body.setWorldTransform(btTransform::getIdentity());
-  body.setInterpolationWorldTransform(btTransform::getIdentity());
+void showInBullet(DestructibleBody& body, const btTransform& at, const btVector3& velocity,
+                  const btVector3& spin) {
+  body.setWorldTransform(at);
+  body.setInterpolationWorldTransform(at);
   body.setLinearVelocity(velocity);
   body.setAngularVelocity(spin);
   body.setInterpolationLinearVelocity(velocity);
@@ -34,12 +35,13 @@ void beElements(DestructibleBody& body) {
   body.setCollisionShape(&shape);
   body.setMassProps(btScalar(body.impl().whole.mass), inertia);
   const btVector3 none(0, 0, 0);
-  showInBullet(body, none, none);
+  showInBullet(body, body.getWorldTransform(), none, none);
   body.clearForces();
   body.setGravity(none);
   // Of what the application does to it; the elements take that from there.
   body.setLinearFactor(body.impl().settings.linearFactor);
   body.setAngularFactor(body.impl().settings.angularFactor);
+  body.impl().fixed = body.impl().held;
   body.updateInertiaTensor();
   // Bullet's solver makes no contact rows against this body; its manifolds are ours.
   body.setContactProcessingThreshold(-BT_LARGE_FLOAT);

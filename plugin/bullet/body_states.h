@@ -8,8 +8,9 @@ RUBBLE_ABI_BEGIN
 
 /// Bullet does not move it: shape and motion are the elements'.
 void beElements(DestructibleBody& body);
-/// Of the same: at the origin, for its shape is where its elements are, and with their motion.
-void showInBullet(DestructibleBody& body, const btVector3& velocity, const btVector3& spin);
+/// Of the same: its place and motion as one.
+void showInBullet(DestructibleBody& body, const btTransform& at, const btVector3& velocity,
+                  const btVector3& spin);
 /// A rigid body as any other, of the shape in DestructibleBody::Impl::whole.
 void beRigid(DestructibleBody& body, const btTransform& at);
 /// The same of a new body. One that anchors hold is dynamic still, without a degree of freedom: Bullet puts

@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 
+#include "bullet/body_impl.h"
 #include "bullet/world_tick.h"
 
 namespace rubble::bullet {
@@ -13,6 +14,7 @@ CouplerConstraint::CouplerConstraint(DestructibleBody& body, Destruction::Impl& 
 }
 
 void CouplerConstraint::buildJacobian() {
+  m_body.impl().inSolver = true;
   m_world.advance(double(m_world.world.getSolverInfo().m_timeStep));
 }
 

@@ -74,10 +74,12 @@ std::vector<ElementShape::Near> ElementShape::nearest(const std::vector<std::uin
 // seen from behind.
 void ElementShape::answer(btTriangleRaycastCallback& ray) const {
   const edem::CellFaces* cells = m_solver.cells(m_body);
-  const Eigen::Vector3d from = toEigen(ray.m_from), along = toEigen(ray.m_to) - from;
+  // A ray comes in the object's frame; a sweep does not.
+  const btTransform frame = m_object ? m_object->getWorldTransform() : btTransform::getIdentity();
+  const btVector3 begin = frame * ray.m_from, end = frame * ray.m_to, none(0, 0, 0);
+  const Eigen::Vector3d from = toEigen(begin), along = toEigen(end) - from;
   if (!(along.squaredNorm() > 0)) return;
-  const btVector3 none(0, 0, 0);
-  for (const Near& n : nearest(m_tree.along(ray.m_from, ray.m_to, none, none), ray.m_from, ray.m_to, 0)) {
+  for (const Near& n : nearest(m_tree.along(begin, end, none, none), begin, end, 0)) {
     const double limit = double(ray.m_hitFraction);
     if (n.begin > limit) break;
     const Eigen::Vector3d to = m_solver.position(m_body, n.element) - from;
@@ -92,7 +94,7 @@ void ElementShape::answer(btTriangleRaycastCallback& ray) const {
       normal = turn * entry->normal;
     }
     if (t < 0) continue;
-    ray.m_hitFraction = ray.reportHit(toBullet(normal), btScalar(t), 0, int(n.element));
+    ray.m_hitFraction = ray.reportHit(toBullet(normal) * frame.getBasis(), btScalar(t), 0, int(n.element));
   }
 }
 

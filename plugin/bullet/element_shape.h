@@ -2,6 +2,7 @@
 // type that nothing in Bullet uses, so that our own algorithm is called for every pair.
 #pragma once
 
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 
 #include <compare>
@@ -22,6 +23,10 @@ class ElementShape : public btConcaveShape {
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
   ElementShape(const edem::Solver& solver, std::uint32_t body);
+
+  /// Whose shape it is: Bullet asks in that object's frame, and the elements are where they are, wherever
+  /// that frame is.
+  void setObject(const btCollisionObject& object) { m_object = &object; }
 
   /// Takes the elements' bounds, grown by what they may travel before the next call [m].
   void refit(double travel);
@@ -63,6 +68,7 @@ class ElementShape : public btConcaveShape {
 
   const edem::Solver& m_solver;
   std::uint32_t m_body;
+  const btCollisionObject* m_object = nullptr;  // none: at the origin
   ElementTree m_tree;
   bool m_hidden = false;
   btVector3 m_low{0, 0, 0}, m_high{0, 0, 0};

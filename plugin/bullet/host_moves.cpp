@@ -25,6 +25,15 @@ btVector3 forceOn(const btRigidBody& body, double mass, const btVector3& gravity
   return body.getGravity().isZero() ? force : force - btScalar(mass) * body.getLinearFactor() * gravity;
 }
 
+// By which it moves what Bullet sees. Nothing is turned that was not.
+Eigen::Isometry3d wayFrom(const btTransform& shown, const btTransform& place) {
+  Eigen::Isometry3d way = Eigen::Isometry3d::Identity();
+  if (!(place.getBasis() == shown.getBasis()))
+    way.linear() = toEigen(place).linear() * toEigen(shown).linear().transpose();
+  way.translation() = toEigen(place.getOrigin()) - way.linear() * toEigen(shown.getOrigin());
+  return way;
+}
+
 }  // namespace
 
 void Destruction::Impl::takeHostMoves(double dt) {
@@ -38,46 +47,28 @@ void Destruction::Impl::takeHostMoves(double dt) {
     const btVector3 velocity = body->getLinearVelocity() - own.shownVelocity,
                     spin = body->getAngularVelocity() - own.shownSpin;
     const btTransform& place = body->getWorldTransform();
-    const bool moved = !(place == btTransform::getIdentity()), set = !velocity.isZero() || !spin.isZero(),
+    const bool moved = !(place == own.shownPlace), set = !velocity.isZero() || !spin.isZero(),
                forced = !sleeps && (!body->getTotalForce().isZero() || !body->getTotalTorque().isZero());
     if (!moved && !set && !forced) continue;
     body->activate(true);
     solver->setAsleep(own.id, false);
     if (moved) {
-      solver->move(own.id, toEigen(place));
+      solver->move(own.id, wayFrom(own.shownPlace, place));
       own.shape->follow();
     }
     if (set || forced) {
-      const edem::RigidMotion motion = solver->motion(own.id);
+      const edem::RigidMotion motion = solver->motion(own.id, own.shown.fragment);
       if (!(motion.mass > 0)) continue;
       Eigen::Vector3d dv = toEigen(velocity), dw = toEigen(spin);
       if (forced) {
         dv += dt / motion.mass * toEigen(forceOn(*body, motion.mass, world.getGravity()));
         dw += dt * motion.inertia.ldlt().solve(toEigen(body->getTotalTorque()));
       }
-      solver->push(own.id, dv, dw);
+      solver->pushAll(own.id, own.shown.fragment, dv, dw);
     }
     // What it moves with from here on meets what is fast, too.
     own.speed = solver->maxSpeed(own.id);
     own.shape->refit(own.speed * dt);
-  }
-}
-
-// Bullet sees a body of elements at the origin, with the mass and the motion of all of them together.
-void Destruction::Impl::showElements() {
-  for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
-    if (body->isWhole()) continue;
-    const bool asleep = solver->view(own.id).asleep || !failure.empty();
-    const edem::RigidMotion motion = asleep ? edem::RigidMotion() : solver->motion(own.id);
-    own.shownVelocity = toBullet(motion.velocity);
-    own.shownSpin = toBullet(motion.spin);
-    bullet::showInBullet(*body, own.shownVelocity, own.shownSpin);
-    if (asleep || !(motion.mass > 0)) continue;
-    // By the diagonal, in the world's axes, of what impulses turn it by.
-    const Eigen::Vector3d turns = motion.inertia.inverse().diagonal();
-    body->setMassProps(btScalar(motion.mass), toBullet(Eigen::Vector3d(turns.cwiseInverse())));
-    body->updateInertiaTensor();
   }
 }
 

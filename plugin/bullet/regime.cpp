@@ -156,6 +156,8 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
       arm.cross(own.whole.mass * toEigen(velocity));
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
   own.state = DestructibleBody::Impl::State::Thawing;
+  own.shown = {};
+  own.shown.frame = own.whole.frame;
   own.struck = false;
   own.restTime = 0;
   if (own.thawLoad > 0) beginEasing(body);

@@ -107,7 +107,11 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   body->impl().whole.mass = mass;
   body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
   if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
-  if (!body->isWhole()) bullet::beElements(*body);
+  body->impl().shape->setObject(*body);
+  if (!body->isWhole()) {
+    bullet::beElements(*body);
+    showElements(*body);
+  }
   world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
   world.addConstraint(body->impl().coupler.get());
   bodies.push_back(body);
@@ -238,6 +242,8 @@ void Destruction::Impl::advance(double dt) {
   if (!solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
+  gatherJoints();
+  loadJoints(dt);
   gatherProxies(dt);
   energyAlarm.begin(proxies);
   std::vector<edem::RigidProxy> start = proxies;
@@ -249,6 +255,7 @@ void Destruction::Impl::advance(double dt) {
   times.edem -= solver->report().listing;
   if (!solver->failure().empty()) failSolver();
   followElements();
+  poseJoints(dt);
   if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
     def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
@@ -288,6 +295,7 @@ void Destruction::Impl::finish(double dt) {
     lateImpulses();
     noteReactions(dt);
     fixPositions();
+    takeJoints(dt);
     writeAppliedImpulses();
     const base::ScopeTimer timer(times.fracture);
     bookEvents();
@@ -305,6 +313,7 @@ void Destruction::Impl::finish(double dt) {
   failSpoiled();
   if (failure.empty()) placeWholes();
   updateSleep(dt);
+  for (DestructibleBody* body : bodies) body->impl().inSolver = false;
   advanced = lookedForBlows = false;
 }
 

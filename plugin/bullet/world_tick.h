@@ -8,6 +8,7 @@
 #include "bullet/debris_surroundings.h"
 #include "bullet/element_algorithm.h"
 #include "bullet/energy_alarm.h"
+#include "bullet/joints.h"
 #include "bullet/ledger_book.h"
 #include "bullet/rigid_proxies.h"
 #include "debris/debris_system.h"
@@ -67,9 +68,10 @@ struct Destruction::Impl {
   std::unique_ptr<bullet::DebrisSurroundings> surroundings;
   std::vector<DestructibleBody*> bodies;
   std::vector<bullet::TouchedBody> touched;
-  std::vector<edem::RigidProxy> proxies;    ///< beside `touched`
-  std::vector<bullet::Reaction> reactions;  ///< of the last tick
-  bool advanced = false;                    ///< in this tick
+  std::vector<edem::RigidProxy> proxies;              ///< beside `touched`
+  std::vector<bullet::Reaction> reactions;            ///< of the last tick
+  std::vector<bullet::HeldJoint> joints, lastJoints;  ///< the application's, to bodies of elements
+  bool advanced = false;                              ///< in this tick
   bullet::LedgerBook ledgerBook;
   bullet::EnergyAlarm energyAlarm;
   Events events[2];
@@ -103,6 +105,18 @@ struct Destruction::Impl {
   /// Takes what the application has set of bodies that their elements move, and shows it what they do.
   void takeHostMoves(double dt);
   void showElements();
+  void showElements(DestructibleBody& body);
+  btTransform placeOfShown(DestructibleBody& body, const edem::RigidMotion& motion) const;
+  void gatherJoints();
+  void loadJoints(double dt);
+  void poseJoints(double dt);
+  void takeJoints(double dt);
+  void takeFragment(DestructibleBody& body);
+  void chooseFragment(DestructibleBody& body);
+  void moveJointFrames(DestructibleBody& body, const btTransform& by);
+  btTransform placeForJoints(const DestructibleBody& body, double dt) const;
+  void pushJointed(DestructibleBody& body, double dt);
+  bullet::JointImpulse jointWrench(const DestructibleBody& body, const edem::RigidMotion& motion) const;
   void closeLedger(double dt);
   /// Ends the simulation when what should take energy makes more than was put in.
   void judgeDamping();

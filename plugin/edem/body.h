@@ -17,6 +17,7 @@
 #include "edem/cell_faces.h"
 #include "edem/contact.h"
 #include "edem/criterion.h"
+#include "edem/host_load.h"
 #include "edem/spring.h"
 #include "edem/types.h"
 #include "rubble/asset.h"
@@ -140,10 +141,11 @@ struct Body {
   std::vector<float> slowPeak;
   std::vector<std::uint8_t> slowTurned;
   std::uint32_t sleepingCount = 0;
-  double energyAsleep = 0;  ///< in the springs of those [J]
-  double massAsleep = 0;    ///< of those [kg]
-  bool asleep = false;      ///< all of it, by its host
-  bool parked = false;      ///< lent to the host, asleep too (parking.h)
+  double energyAsleep = 0;          ///< in the springs of those [J]
+  double massAsleep = 0;            ///< of those [kg]
+  std::vector<HostLoad> hostLoads;  ///< until the tick ends
+  bool asleep = false;              ///< all of it, by its host
+  bool parked = false;              ///< lent to the host, asleep too (parking.h)
   /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
   std::vector<Vec3<Real>> parkedAt;
   std::vector<Quat<Real>> parkedTurn;

@@ -8,13 +8,51 @@
 namespace rubble::edem {
 
 template <class Real>
-void pushWhole(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin, Books& books) {
-  const Eigen::Vector3d centre = wholeMotion(body).centre;
+void pushWhole(Body<Real>& body, std::uint32_t root, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& spin, Books& books) {
+  const Eigen::Vector3d centre = wholeMotion(body, root).centre;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
+    if (!body.alive[i] || (root != kNoElement && body.fragment[i] != root)) continue;
     const Eigen::Vector3d arm = body.worldPosition(i) - centre;
     pushElement(body, i, body.mass[i] * (velocity + spin.cross(arm)), body.inertia[i] * spin, books);
   }
+}
+
+namespace {
+
+template <class Real>
+double powerOf(const Body<Real>& body, const HostLoad& load) {
+  return load.force.dot(body.velocity[load.element].template cast<double>()) +
+         load.torque.dot(body.spin[load.element].template cast<double>());
+}
+
+template <class Real>
+bool takes(const Body<Real>& body, const HostLoad& load) {
+  return body.alive[load.element] && !body.sleeping[load.element];
+}
+
+}  // namespace
+
+template <class Real>
+void addHostLoads(Body<Real>& body, double kick, Books& books) {
+  for (const HostLoad& load : body.hostLoads) {
+    if (!takes(body, load)) continue;
+    const std::uint32_t i = load.element;
+    body.force[i] += load.force.cast<Real>();
+    body.torque[i] += load.torque.cast<Real>();
+    const Eigen::Vector3d at = body.origin + body.position[i];
+    FragmentMotion& motion = body.motions[body.motionOf[i]];
+    motion.force += load.force;
+    motion.torque += (at - motion.centre).cross(load.force) + load.torque;
+    books.bullet.push(kick, load.force, at - books.centre, load.torque);
+    books.bullet.work.add(0.5 * kick * powerOf(body, load), 0);
+  }
+}
+
+template <class Real>
+void bookHostLoads(const Body<Real>& body, double kick, Books& books) {
+  for (const HostLoad& load : body.hostLoads)
+    if (takes(body, load)) books.bullet.work.add(0, 0.5 * kick * powerOf(body, load));
 }
 
 template <class Real>
@@ -46,8 +84,12 @@ void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
   books.angular += angularNow - angular;
 }
 
-template void pushWhole(Body<float>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
-template void pushWhole(Body<double>&, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void pushWhole(Body<float>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void pushWhole(Body<double>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
+template void addHostLoads(Body<float>&, double, Books&);
+template void addHostLoads(Body<double>&, double, Books&);
+template void bookHostLoads(const Body<float>&, double, Books&);
+template void bookHostLoads(const Body<double>&, double, Books&);
 template void moveWhole(Body<float>&, const Eigen::Isometry3d&, Books&);
 template void moveWhole(Body<double>&, const Eigen::Isometry3d&, Books&);
 

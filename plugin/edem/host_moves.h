@@ -6,9 +6,17 @@
 
 namespace rubble::edem {
 
-/// Adds a rigid motion about the centre of mass of what is alive [m/s], [rad/s].
+/// Adds a rigid motion about the centre of mass of what is alive, or of the fragment `root` [m/s], [rad/s].
 template <class Real>
-void pushWhole(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin, Books& books);
+void pushWhole(Body<Real>& body, std::uint32_t root, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& spin, Books& books);
+
+/// Adds the host's loads to the forces of a substep; sleeping elements take none.
+template <class Real>
+void addHostLoads(Body<Real>& body, double kick, Books& books);
+/// Their work after it.
+template <class Real>
+void bookHostLoads(const Body<Real>& body, double kick, Books& books);
 
 /// Moves a body and its anchors, velocities turned with it; with its frames, so that no displacement changes
 /// where nothing is turned.

@@ -23,8 +23,20 @@ struct RigidMotion {
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body);
 
-/// Of all that is alive.
+/// Of all that is alive, or of the fragment whose lowest element is `root`.
 template <class Real>
-RigidMotion wholeMotion(const Body<Real>& body);
+RigidMotion wholeMotion(const Body<Real>& body, std::uint32_t root = kNoElement);
+
+/// Where the asset's frame is, by the best rigid motion of what is alive of a fragment, or of all: mean
+/// rotation and mean position, mass-weighted.
+struct Placement {
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();      ///< of its masses, world [m]
+  Eigen::Vector3d restCentre = Eigen::Vector3d::Zero();  ///< the same at rest in the asset's frame [m]
+  double mass = 0;                                       ///< [kg]; 0: nothing is alive
+  bool anchored = false;                                 ///< an anchor holds some of it
+};
+template <class Real>
+Placement placementOf(const Body<Real>& body, std::uint32_t root = kNoElement);
 
 }  // namespace rubble::edem

@@ -104,18 +104,29 @@ class SolverOf final : public Solver {
     pushElement(*m_world.bodies[place], i, linear, angular, m_world.books);
   }
 
-  RigidMotion motion(std::uint32_t id) const override { return wholeMotion(of(id)); }
-  void push(std::uint32_t id, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) override {
+  RigidMotion motion(std::uint32_t id, std::uint32_t root) const override {
+    return wholeMotion(of(id), root);
+  }
+  Placement placement(std::uint32_t id, std::uint32_t root) const override {
+    return placementOf(of(id), root);
+  }
+  void pushAll(std::uint32_t id, std::uint32_t root, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& spin) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
     forgetSleep(body);
     m_world.listsStale = true;
-    pushWhole(body, velocity, spin, m_world.books);
+    pushWhole(body, root, velocity, spin, m_world.books);
   }
   void move(std::uint32_t id, const Eigen::Isometry3d& by) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
     forgetSleep(body);
     endContactsOf(id);
     moveWhole(body, by, m_world.books);
+  }
+
+  void load(std::uint32_t id, std::span<const HostLoad> loads) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    body.hostLoads.insert(body.hostLoads.end(), loads.begin(), loads.end());
   }
 
   void setEasing(std::uint32_t id, double rate) override {

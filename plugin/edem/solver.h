@@ -79,11 +79,16 @@ class Solver {
   /// [N s], [N m s]. Booked as the host's.
   virtual void push(std::uint32_t id, std::size_t element, const Eigen::Vector3d& linear,
                     const Eigen::Vector3d& angular) = 0;
-  /// Motion of all that is alive of a body, as one.
-  virtual RigidMotion motion(std::uint32_t id) const = 0;
-  /// Adds a rigid motion to it, and moves it with its anchors, between ticks; wakes it. Booked as the host's.
-  virtual void push(std::uint32_t id, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) = 0;
+  /// Motion of all that is alive of a body, or of the fragment whose lowest element is `root`, as one.
+  virtual RigidMotion motion(std::uint32_t id, std::uint32_t root = kNoElement) const = 0;
+  virtual Placement placement(std::uint32_t id, std::uint32_t root = kNoElement) const = 0;
+  /// Adds a rigid motion to that, or moves all of a body with its anchors, between ticks; wakes it. Booked as
+  /// the host's.
+  virtual void pushAll(std::uint32_t id, std::uint32_t root, const Eigen::Vector3d& velocity,
+                       const Eigen::Vector3d& spin) = 0;
   virtual void move(std::uint32_t id, const Eigen::Isometry3d& by) = 0;
+  /// Presses elements of a body all through its next tick. Booked as the host's; wakes nothing.
+  virtual void load(std::uint32_t id, std::span<const HostLoad> loads) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
   /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;

@@ -25,6 +25,7 @@ struct BrokenSpring {
 struct TickReport {
   int substeps = 0;
   double substep = 0;   ///< h [s]
+  double kicked = 0;    ///< time for which forces acted: that of the velocities, between half steps [s]
   double listing = 0;   ///< wall time spent on candidate lists [ms]
   std::string warning;  ///< what the tick could not do as it should; empty: nothing
   std::vector<BrokenSpring> broken;

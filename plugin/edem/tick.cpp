@@ -11,6 +11,7 @@
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
 #include "edem/frames.h"
+#include "edem/host_moves.h"
 #include "edem/sleep.h"
 
 namespace rubble::edem {
@@ -115,6 +116,8 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {w.lastStep, step}, w.resting, w.books);
     w.books.elastic += l.elastic;
   }
+  for (auto& body : w.bodies)
+    if (!body->asleep) addHostLoads(*body, kick, w.books);
   w.rigid.accumulate(w.bodies, {w.lastStep, step}, kick, w.resting, w.books);
   w.resting.settle();
   w.books.elastic += w.rigid.elastic();
@@ -147,6 +150,7 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     const Real moved2 =
         integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed),
                   w.drifts.bodies[b].moved, w.books);
+    bookHostLoads(body, kick, w.books);
     if (!std::isfinite(moved2))
       w.failure = "body " + std::to_string(body.id) +
                   ": the state of its elements is not finite; lower substepSafety, or look for "
@@ -171,6 +175,7 @@ void closeTick(World<Real>& w, double dt) {
     splitFrames(*body);
     listAwake(*body);
   }
+  for (auto& body : w.bodies) body->hostLoads.clear();
   settle(w, dt);
   for (auto& body : w.bodies)
     if (!body->asleep) fitFrames(*body);
@@ -186,7 +191,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.report.broken.clear();
   w.report.crushed.clear();
   w.report.substeps = 0;
-  w.report.listing = 0;
+  w.report.listing = w.report.kicked = 0;
   w.report.warning.clear();
   if (!std::isfinite(dt)) w.failure = "the time step is not finite";
   if (!w.failure.empty() || !(dt > 0)) return;
@@ -218,6 +223,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
     const double kick = w.lastStep > 0 ? 0.5 * (w.lastStep + step) : step;
     substep(w, kick, step, gravity);
     w.lastStep = step;
+    w.report.kicked += kick;
     ++substeps;
     left = left - step > 0.5 * step ? left - step : 0;
   }

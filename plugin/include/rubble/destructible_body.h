@@ -11,12 +11,14 @@
 namespace rubble {
 RUBBLE_ABI_BEGIN
 
-/// While its elements move it, Bullet sees a body of true mass that it never moves itself: shape and motion
-/// are the elements', its Bullet velocities those of all of them together, and its Bullet transform is the
-/// identity. Velocities, impulses, forces and its own gravity that the application sets act on all of them as
-/// one in the next tick; a transform moves them by it, anchors too. While it is whole
-/// (Regime::RigidUntilStruck) it is a rigid body as any other. Either way poses() tells where the elements
-/// are. Made by Destruction::addBody only.
+/// While its elements move it, Bullet sees a body of true mass that it never moves itself: shape, place and
+/// motion are the elements', all of them together. In one piece its Bullet frame is that of the body as a
+/// whole, or has its origin in the centre of mass and the asset's axes; in several it has its origin in the
+/// centre of mass of all and turns with the heaviest. Velocities, impulses, forces and its own gravity that
+/// the application sets act on all of them as one in the next tick; a transform puts all of them there,
+/// anchors too. Joints hold it: once in several pieces Bullet sees the heaviest that a joint holds in place
+/// of all. While it is whole (Regime::RigidUntilStruck) it is a rigid body as any other. Either way poses()
+/// tells where the elements are. Made by Destruction::addBody only.
 class DestructibleBody : public btRigidBody {
  public:
   ~DestructibleBody() override;
