@@ -50,6 +50,7 @@ struct DestructibleBody::Impl {
   btVector3 shownVelocity{0, 0, 0}, shownSpin{0, 0, 0};  ///< to the application, while it is elements
   btTransform shownPlace = btTransform::getIdentity();   ///< the same
   bullet::Shown shown;                                   ///< what of it that is
+  bool lay = false;                                      ///< nothing of it moved when the last tick ended
   bool jointed = false;                                  ///< joints of the application hold it
   bool inSolver = false;                                 ///< Bullet has solved its island in this tick
   /// What its joints' loads have given it in this tick, as one [m/s], [rad/s].

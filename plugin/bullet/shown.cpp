@@ -73,8 +73,9 @@ void Destruction::Impl::showElements() {
 
 void Destruction::Impl::showElements(DestructibleBody& body) {
   DestructibleBody::Impl& own = body.impl();
-  const bool asleep = solver->view(own.id).asleep || !failure.empty();
-  const edem::RigidMotion motion = asleep ? edem::RigidMotion() : solver->motion(own.id, own.shown.fragment);
+  const edem::BodyView view = solver->view(own.id);
+  const bool asShown = view.asleep || (view.lies() && own.lay) || !failure.empty();
+  const edem::RigidMotion motion = asShown ? edem::RigidMotion() : solver->motion(own.id, own.shown.fragment);
   const Eigen::Isometry3d frame = own.shown.frame;
   if (motion.mass > 0) own.shownPlace = placeOfShown(body, motion);
   if (own.jointed && !(frame.matrix() == own.shown.frame.matrix()))

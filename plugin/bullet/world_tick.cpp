@@ -281,7 +281,7 @@ void Destruction::Impl::advance(double dt) {
 void Destruction::Impl::followElements() {
   if (!failure.empty()) return;  // places may not be numbers
   for (DestructibleBody* body : bodies)
-    if (!solver->view(body->id()).asleep) body->impl().shape->follow();
+    if (!solver->view(body->id()).lies() || !body->impl().lay) body->impl().shape->follow();
 }
 
 void Destruction::Impl::finish(double dt) {
@@ -470,7 +470,11 @@ void Destruction::Impl::updateSleep(double dt) {
     } else if (body->getActivationState() == DISABLE_DEACTIVATION) {
       body->forceActivationState(ACTIVE_TAG);
     }
-    if (!solver->view(id).asleep) body->impl().shape->refit(speed * dt);
+    const bool lies = solver->view(id).lies();
+    // It has waited for each of its fragments: Bullet need not wait once more.
+    if (quiet && lies) body->setDeactivationTime(std::max(body->getDeactivationTime(), gDeactivationTime));
+    if (!lies || !body->impl().lay) body->impl().shape->refit(speed * dt);
+    body->impl().lay = lies;
   }
 }
 

@@ -26,7 +26,7 @@ template <class Real>
 double speedOf(const Body<Real>& b, const Eigen::Vector3d& drift) {
   const Vec3<Real> common = drift.cast<Real>();
   double fastest = 0;
-  for (std::size_t i = 0; i < b.elementCount(); ++i)
+  for (const std::uint32_t i : b.awake)
     if (b.alive[i])
       fastest = std::max(
           fastest, double((b.velocity[i] - common).norm()) + double(b.radius) * double(b.spin[i].norm()));

@@ -31,6 +31,9 @@ struct BodyView {
   std::uint32_t fragments = 0, crushed = 0, broken = 0;
   bool asleep = false;
   std::uint32_t sleepingCount = 0;
+
+  /// Nothing of it moves.
+  bool lies() const { return asleep || sleepingCount + crushed == alive.size(); }
 };
 
 class Solver {
