@@ -1,5 +1,6 @@
 // What the scene `wall` promises over its whole length, and over a sweep of speeds: minutes.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "scenes/wall_run.h"
 
@@ -61,6 +62,49 @@ TEST(WallWhole, HalfTheSubstepClosesTheEnergyBetter) {
     return worstErrors(runWall({{"frames", "20"}, {"dust", "null"}, {"substep_safety", safety}})).energy;
   };
   EXPECT_LT(errorAt("0.45"), errorAt("0.9"));
+}
+
+// Of one body.
+std::vector<Eigen::Vector3f> placesIn(const demo::World& world) {
+  const DestructibleBody& body = *world.destruction().bodies().front();
+  std::vector<ElementPose> poses(body.asset()->elementCount());
+  body.poses(poses);
+  std::vector<Eigen::Vector3f> places;
+  for (const ElementPose& pose : poses) places.push_back(pose.position);
+  return places;
+}
+
+TEST(WallRubble, LiesForTenMinutesWhereItCameToRest) {
+  const demo::Scene scene = demo::loadScene("wall", Overrides{{"dust", "null"}});
+  demo::World world(scene, demo::cookObjects(scene, {}, strictLog()), strictLog());
+  const auto run = [&](double seconds) {
+    for (int frame = 0; frame < int(seconds * scene.fps); ++frame) {
+      world.step();
+      world.destruction().takeEvents();
+    }
+  };
+  // Half a second for each fragment, and then all of it.
+  run(3.2);
+  EXPECT_LT(world.destruction().counts().awake, 64u);
+  run(6.8);
+  const auto before = placesIn(world);
+  const Ledger ledger = world.destruction().ledger();
+  const std::size_t memory = mallinfo2().uordblks;
+  EXPECT_EQ(world.destruction().counts().awake, 0u);
+  EXPECT_EQ(world.substeps(), 0);
+  EXPECT_NEAR(ledger.kinetic, 0, 1e-9 * ledger.energyScale);
+  EXPECT_LT(ledger.energyError, 1e-3);
+
+  run(590);
+  const auto after = placesIn(world);
+  double drift = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    drift = std::max(drift, double((after[i] - before[i]).norm()));
+  EXPECT_LT(drift, 1e-3);
+  EXPECT_EQ(world.destruction().counts().awake, 0u);
+  EXPECT_NEAR(world.destruction().ledger().kinetic, 0, 1e-9 * ledger.energyScale);
+  EXPECT_NEAR(world.destruction().ledger().energyError, ledger.energyError, 1e-6);
+  EXPECT_LT(mallinfo2().uordblks, memory + (1u << 16));
 }
 
 TEST(WallQuiet, NothingBreaksOrMovesForTenSeconds) {
