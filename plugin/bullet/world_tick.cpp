@@ -315,6 +315,8 @@ void Destruction::Impl::finish(double dt) {
   updateSleep(dt);
   for (DestructibleBody* body : bodies) body->impl().inSolver = false;
   advanced = lookedForBlows = false;
+  ++ticks;
+  seconds += dt;
 }
 
 void Destruction::Impl::closeLedger(double dt) {
@@ -345,7 +347,14 @@ void Destruction::Impl::judgeDamping() {
 void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
   if (!failure.empty()) return;
   const DestructibleBody::Impl& own = body.impl();
-  failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice);
+  failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice) + whenText();
+}
+
+std::string Destruction::Impl::whenText() const {
+  char text[80];
+  std::snprintf(text, sizeof text, " (tick %llu, after %.6g s)", static_cast<unsigned long long>(ticks),
+                seconds);
+  return text;
 }
 
 // The solver's message begins with the body, "body 3: ".
@@ -355,7 +364,7 @@ void Destruction::Impl::failSolver() {
     const std::string head = "body " + std::to_string(body->id()) + ": ";
     if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
   }
-  failure = text;
+  failure = text + whenText();
 }
 
 // By the application, a joint or a neighbour: elements would follow.
@@ -437,7 +446,7 @@ void Destruction::Impl::stepDebris(double dt) {
     try {
       debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
     } catch (const Error& error) {  // numbers that have run away
-      failure = error.what();
+      failure = error.what() + whenText();
       return;
     }
     ledgerBook.addPush(surroundings->push(debrisSystem->surfaceImpulses()));

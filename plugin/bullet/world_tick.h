@@ -80,6 +80,8 @@ struct Destruction::Impl {
   std::string failure;
   bool warned = false;  ///< of a tick that could not be followed; once is enough
   int substeps = 0;
+  std::uint64_t ticks = 0;  ///< that are over, and their time [s]
+  double seconds = 0;
   int wholes = 0;               ///< bodies that Bullet moves
   bool lookedForBlows = false;  ///< in this tick
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0;
@@ -121,6 +123,7 @@ struct Destruction::Impl {
   /// Ends the simulation when what should take energy makes more than was put in.
   void judgeDamping();
   void fail(const DestructibleBody& body, const std::string& what);
+  std::string whenText() const;  ///< of a failure: which tick
   void stepDebris(double dt);
   /// Lends a new body to Bullet, if it may be.
   void beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef);

@@ -105,6 +105,15 @@ double longestStep(World<Real>& w, double dt) {
 }
 
 template <class Real>
+std::uint32_t firstSpoiled(const Body<Real>& body) {
+  for (const std::uint32_t i : body.awake)
+    if (body.alive[i] && !(body.displacement[i].allFinite() && body.velocity[i].allFinite() &&
+                           body.spin[i].allFinite() && body.rotation[i].coeffs().allFinite()))
+      return i;
+  return body.awake.front();  // only its energy is
+}
+
+template <class Real>
 void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gravity) {
   w.books.closeStep();
   w.books.elastic = 0;
@@ -152,9 +161,10 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
                   w.drifts.bodies[b].moved, w.books);
     bookHostLoads(body, kick, w.books);
     if (!std::isfinite(moved2))
-      w.failure = "body " + std::to_string(body.id) +
-                  ": the state of its elements is not finite; lower substepSafety, or look for "
-                  "units other than metres, seconds, kilograms";
+      w.failure =
+          "body " + std::to_string(body.id) + ": the state of its elements is not finite, first that of " +
+          std::to_string(firstSpoiled(body)) + " in substep " + std::to_string(w.report.substeps) +
+          " of its tick; lower substepSafety, or look for units other than metres, seconds, kilograms";
     if (body.easeDamping > 0 && body.brokenCount == body.easeBroken)
       dampDeformation(body, body.easeDamping, kick, w.books);
     moveMotions(body, kick, step, gravity);
@@ -224,10 +234,9 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
     substep(w, kick, step, gravity);
     w.lastStep = step;
     w.report.kicked += kick;
-    ++substeps;
+    w.report.substeps = ++substeps;
     left = left - step > 0.5 * step ? left - step : 0;
   }
-  w.report.substeps = substeps;
   w.report.substep = step;
   closeTick(w, dt);
 }

@@ -109,7 +109,9 @@ TEST(HostileTick, NotANumberStopsTheRunAndSaysWhere) {
   const auto solver = makeSolver<float>();
   const std::uint32_t id = solver->addBody(block({2, 2, 2}), kNoGravity);
   solver->tick(kFrame, Eigen::Vector3d(0, kNaN, 0), {});
-  EXPECT_NE(solver->failure().find("body " + std::to_string(id)), std::string::npos);
+  EXPECT_EQ(solver->failure().find("body " + std::to_string(id) + ": "), 0u);
+  EXPECT_NE(solver->failure().find("first that of 0 in substep 0 of its tick"), std::string::npos)
+      << solver->failure();
   solver->tick(kFrame, kGravity, {});
   EXPECT_EQ(solver->report().substeps, 0);
 }

@@ -107,8 +107,8 @@ class Destruction : public btActionInterface {
   std::span<const DebrisPiece> debris() const;
   DestructionCounts counts() const;
   DestructionTimes takeTimes();
-  /// Why the simulation stopped (a state that is not finite); empty while all is well. Nothing moves after
-  /// it.
+  /// Why the simulation stopped (a state that is not finite), with the body, the tick and where it is known
+  /// the element; empty while all is well. Nothing moves after it.
   const std::string& failure() const;
   /// Stable substep of the stiffest body now [s], and the substeps of the last tick.
   double stableSubstep() const;
