@@ -31,8 +31,6 @@ constexpr double kCalmSpeed = 0.1;
 // sleep are helped to rest once they have been slower than this for half a second; they rise 3 mm by it
 // [m/s]. The half of a wall that a ball went through rings at 0.12.
 constexpr double kSettleSpeed = 0.25;
-// As Bullet's islands, which its applications may change by gDeactivationTime [s].
-constexpr double kTimeToSleep = 2;
 // A run stops when dashpots, friction and restitution made more than this share of the energy in the world:
 // more than was put in. A blow that lasts has up to a tenth for a while (a crate of 50 kg on a slab), for
 // energy that restitution withholds while the surface still nears counts only as it parts.
@@ -48,7 +46,6 @@ Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionD
                                                        .breaking = definition.breaking,
                                                        .crushing = definition.crushing,
                                                        .sleepSpeed = definition.sleep ? kQuietSpeed : 0,
-                                                       .sleepTime = kTimeToSleep,
                                                        .settleSpeed = definition.sleep ? kSettleSpeed : 0})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
       proxyMaker(definition.log) {

@@ -265,6 +265,8 @@ void makeState(Body<Real>& body, const BodyDef& def) {
   body.sleeping.assign(n, 0);
   body.calmTime.assign(n, 0);
   body.slowTime.assign(n, 0);
+  body.slowPeak.assign(n, 0);
+  body.slowTurned.assign(n, 0);
   body.load.assign(n, Real(0));
   body.touchesBegun.assign(n, 0);
   body.anchored.assign(n, 0);

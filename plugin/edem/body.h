@@ -136,6 +136,9 @@ struct Body {
   std::vector<std::uint8_t> sleeping;  ///< elements of fragments that sleep by themselves, see sleep.h
   /// How long each element has been slower than SolverDef::sleepSpeed, and than settleSpeed [s].
   std::vector<float> calmTime, slowTime;
+  /// Its largest speed in slowTime [m/s], and whether it has been half as fast since.
+  std::vector<float> slowPeak;
+  std::vector<std::uint8_t> slowTurned;
   std::uint32_t sleepingCount = 0;
   double energyAsleep = 0;  ///< in the springs of those [J]
   bool asleep = false;      ///< all of it, by its host

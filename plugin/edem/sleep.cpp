@@ -112,6 +112,12 @@ bool comesAt(PairList<Real>& list, std::size_t k, const Vec3<double>& offset, Bo
   return range > distance;
 }
 
+// Of an element's centre, and of its surface by spin [m/s].
+template <class Real>
+double fastestOf(const Body<Real>& body, std::size_t i) {
+  return double(body.velocity[i].norm()) + double(body.radius) * double(body.spin[i].norm());
+}
+
 // Which fragments, by their lowest elements, have been slower than `speed` for longer than `time`; `since` is
 // how long each element has.
 template <class Real>
@@ -120,12 +126,26 @@ std::vector<std::uint8_t> slowFragments(const Body<Real>& body, double speed, do
   std::vector<std::uint8_t> slow(body.elementCount(), 1);
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
     if (!body.alive[i] || body.sleeping[i]) continue;
-    const double fastest =
-        double(body.velocity[i].norm()) + double(body.radius) * double(body.spin[i].norm());
-    since[i] = fastest < speed ? since[i] + float(dt) : 0;
+    since[i] = fastestOf(body, i) < speed ? since[i] + float(dt) : 0;
     if (!(double(since[i]) > time)) slow[body.fragment[i]] = 0;
   }
   return slow;
+}
+
+// What swings is as fast again in half a period at most; what topples is only ever faster.
+template <class Real>
+void followSwings(Body<Real>& body) {
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+    if (!body.alive[i] || body.sleeping[i]) continue;
+    const float speed = float(fastestOf(body, i));
+    if (!(body.slowTime[i] > 0)) body.slowPeak[i] = 0;
+    if (speed > body.slowPeak[i]) {
+      body.slowPeak[i] = speed;
+      body.slowTurned[i] = 0;
+    } else if (speed < 0.5f * body.slowPeak[i]) {
+      body.slowTurned[i] = 1;
+    }
+  }
 }
 
 }  // namespace
@@ -149,11 +169,15 @@ void settle(World<Real>& w, double dt) {
     }
     if (any) dampDeformation(body, std::span<const double>(rates), dt, w.books);
   }
-  if (!(def.settleSpeed > 0) || !(w.gravity.norm() * def.sleepTime > def.settleSpeed)) return;
+  if (!(def.settleSpeed > 0) || !(w.gravity.norm() * def.settleTime > def.settleSpeed)) return;
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
-    const Body<Real>& body = *w.bodies[b];
-    for (std::uint32_t i = 0; !body.asleep && i < body.elementCount(); ++i)
-      if (body.alive[i] && !(double(body.slowTime[i]) > def.sleepTime)) slow[b][body.fragment[i]] = 0;
+    Body<Real>& body = *w.bodies[b];
+    if (body.asleep) continue;
+    followSwings(body);
+    for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+      if (!body.alive[i] || body.sleeping[i]) continue;
+      if (double(body.slowPeak[i]) > def.sleepSpeed && !body.slowTurned[i]) slow[b][body.fragment[i]] = 0;
+    }
   }
   w.rigid.visitAtMoving([&](std::uint32_t b, std::uint32_t i) {
     if (w.bodies[b]->alive[i]) slow[b][w.bodies[b]->fragment[i]] = 0;

@@ -11,13 +11,13 @@ struct SolverDef {
   /// Fragments slower than this, surfaces included, fall asleep one by one, each with what it touches; 0:
   /// none does [m/s].
   double sleepSpeed = 0;
-  double sleepTime = 2;  ///< after so long [s]
+  double sleepTime = 0.5;  ///< after so long [s]
   /// Fragments slower than this for so long, which something bears or they would fall, come to rest: what
   /// they deform by is damped at least at that rate; 0: none do [m/s], [s], [1/s].
   double settleSpeed = 0, settleTime = 0.5, settleRate = 20;
-  /// And their motion as a whole at this one, after sleepTime: a wall that lost its anchors else still
-  /// rocks after ten seconds [1/s].
-  double brakeRate = 2;
+  /// And their motion as a whole at this one, if it does not only grow: pieces of a wall else still rock after
+  /// ten seconds, but what topples slowly must fall [1/s].
+  double brakeRate = 5;
 };
 
 }  // namespace rubble::edem
