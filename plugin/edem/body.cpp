@@ -308,7 +308,18 @@ Body<Real> makeBody(const BodyDef& def, std::uint32_t id) {
   body.criterion = makeCriterion<Real>(def.material, def.model);
   labelFragments(body);
   splitFrames(body);
+  listAwake(body);
   return body;
+}
+
+template <class Real>
+void listAwake(Body<Real>& body) {
+  body.awake.clear();
+  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+    if (body.alive[i] && !body.sleeping[i]) body.awake.push_back(i);
+  body.awakeSprings.clear();
+  for (std::uint32_t s = 0; s < body.springs.size(); ++s)
+    if (body.intact[s] && !body.sleeping[body.springs[s].first]) body.awakeSprings.push_back(s);
 }
 
 template <class Real>
@@ -337,6 +348,8 @@ template struct Body<float>;
 template struct Body<double>;
 template Body<float> makeBody(const BodyDef&, std::uint32_t);
 template Body<double> makeBody(const BodyDef&, std::uint32_t);
+template void listAwake(Body<float>&);
+template void listAwake(Body<double>&);
 template std::uint32_t labelFragments(Body<float>&);
 template std::uint32_t labelFragments(Body<double>&);
 

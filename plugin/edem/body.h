@@ -141,12 +141,18 @@ struct Body {
   std::vector<std::uint8_t> slowTurned;
   std::uint32_t sleepingCount = 0;
   double energyAsleep = 0;  ///< in the springs of those [J]
+  double massAsleep = 0;    ///< of those [kg]
   bool asleep = false;      ///< all of it, by its host
   bool parked = false;      ///< lent to the host, asleep too (parking.h)
   /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
   std::vector<Vec3<Real>> parkedAt;
   std::vector<Quat<Real>> parkedTurn;
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
+
+  // What is stepped, in rising order; written by listAwake. Elements that were crushed and springs that broke
+  // since may be in them.
+  std::vector<std::uint32_t> awake;         ///< elements that live and do not sleep
+  std::vector<std::uint32_t> awakeSprings;  ///< unbroken springs and anchors of those
 
   // Derived from the frames; written by turnRest.
   std::vector<Vec3<double>> rest;  ///< origin_f + turn_f X_I, relative to origin [m]
@@ -186,6 +192,10 @@ template <class Real>
 SpringEnd<Real> secondEnd(const Body<Real>& body, std::size_t s) {
   return body.isAnchor(s) ? SpringEnd<Real>{} : body.end(body.springs[s].second);
 }
+
+/// Lists anew what is stepped: after elements fell asleep or woke, or springs broke.
+template <class Real>
+void listAwake(Body<Real>& body);
 
 /// Labels connected components of the unbroken springs; returns their number.
 template <class Real>

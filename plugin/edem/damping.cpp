@@ -28,9 +28,9 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
   assert(rates.size() == body.elementCount() && dt >= 0);
   const auto motions = rigidMotions(body);
   std::vector<std::uint8_t> held(body.elementCount(), 0);
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+  for (const std::uint32_t i : body.awake)
     if (body.alive[i] && body.anchored[i]) held[body.fragment[i]] = 1;
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+  for (const std::uint32_t i : body.awake) {
     if (!body.alive[i]) continue;
     const double rate = rates[body.fragment[i]];
     assert(rate >= 0);

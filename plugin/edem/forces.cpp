@@ -40,7 +40,7 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
 
 template <class Real>
 void beginSubstep(Body<Real>& body) {
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+  for (const std::uint32_t i : body.awake) {
     body.position[i] = body.rest[i] + body.displacement[i].template cast<double>();
     body.force[i].setZero();
     body.torque[i].setZero();
@@ -58,8 +58,8 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
   assert(std::isfinite(kick) && kick >= 0);
   assert(body.intact.size() == body.springs.size() && body.force.size() == body.elementCount());
   double elastic = body.energyAsleep;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s] || body.sleeping[body.springs[s].first]) continue;
+  for (const std::uint32_t s : body.awakeSprings) {
+    if (!body.intact[s]) continue;
     const Spring<Real>& spring = body.springs[s];
     assert(spring.first < body.elementCount() && spring.second < body.elementCount());
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
@@ -75,7 +75,7 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
     addSpring(body, s, load, Real(1));
     BreakMode mode{};
     if (breaking && breaks(body.criterion, spring, load, mode)) {
-      body.overloaded.push_back(std::uint32_t(s));
+      body.overloaded.push_back(s);
       body.overloadMode.push_back(mode);
     }
   }
@@ -84,7 +84,7 @@ double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& bo
 
 template <class Real>
 void markCrushed(Body<Real>& body) {
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+  for (const std::uint32_t i : body.awake) {
     if (!body.alive[i] || !(body.load[i] > body.crushEnergy[i])) continue;
     body.leaving[i] = 1;
     body.crushing.push_back(i);

@@ -45,13 +45,8 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
   Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero(),
                   spinning = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
-  double sleeping = 0;  // mass
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+  for (const std::uint32_t i : body.awake) {
     if (!body.alive[i]) continue;
-    if (body.sleeping[i]) {
-      sleeping += body.mass[i];
-      continue;
-    }
     const Vec3<Real> oldVelocity = body.velocity[i], oldSpin = body.spin[i];
     body.velocity[i] = addCompensated<Real>(
         oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall, body.velocityCarry[i]);
@@ -81,7 +76,7 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
     lostNext += f.dot(v1) + t.dot(w1);
   }
   const Eigen::Vector3d arm = body.origin - books.centre;
-  books.mass += mass + sleeping;
+  books.mass += mass + body.massAsleep;
   books.kinetic += kinetic;
   books.linear += after;
   books.angular += arm.cross(after) + angular + spinning;

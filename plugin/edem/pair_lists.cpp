@@ -104,18 +104,23 @@ void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, Pa
   const double distance2 = distance * distance;
   const PairList<Real> old = list;
   list.entries.clear();
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+  // Pairs that sleep are as they were.
+  for (const PairEntry& e : old.entries)
+    if (body.sleeping[e.first] && body.sleeping[e.second]) list.entries.push_back(e);
+  for (const std::uint32_t i : body.awake) {
     if (!body.alive[i]) continue;
     const auto cell = own.grid.cellOf(own.listed[i]);
     for (int z = -1; z <= 1; ++z) {
       for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
           own.grid.visitCell(cell + Eigen::Vector3i(x, y, z), [&](std::uint32_t j) {
-            if (j <= i || (own.listed[j] - own.listed[i]).squaredNorm() >= distance2) return;
-            const std::uint32_t pair = pairOf(body, i, j);
+            if (j == i || (j < i && !body.sleeping[j])) return;  // the other finds it
+            if ((own.listed[j] - own.listed[i]).squaredNorm() >= distance2) return;
+            const std::uint32_t first = std::min(i, j), second = std::max(i, j);
+            const std::uint32_t pair = pairOf(body, first, second);
             const bool joined = pair < body.anchorBegin && body.intact[pair];
             if (joined && !body.model.contactBesideSpring) return;
-            list.entries.push_back({i, j, pair});
+            list.entries.push_back({first, second, pair});
           });
         }
       }

@@ -1,14 +1,17 @@
 #include "edem/rigid_motion.h"
 
+#include <ranges>
+
 namespace rubble::edem {
 namespace {
 
-// Of the living elements that groupOf(element) gives one number.
-template <class Real, class GroupOf>
-std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, GroupOf&& groupOf) {
+// Of those of the elements that live and that groupOf(element) gives one number.
+template <class Real, class Elements, class GroupOf>
+std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, const Elements& elements,
+                                               GroupOf&& groupOf) {
   std::map<std::uint32_t, RigidMotion> motions;
   const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < body.elementCount(); ++i)
+    for (const std::size_t i : elements)
       if (body.alive[i]) visit(i, motions[groupOf(i)]);
   };
   each([&](std::size_t i, RigidMotion& m) {
@@ -35,12 +38,13 @@ std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, GroupOf&&
 
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
-  return motionsOf(body, [&](std::size_t i) { return body.fragment[i]; });
+  return motionsOf(body, body.awake, [&](std::size_t i) { return body.fragment[i]; });
 }
 
 template <class Real>
 RigidMotion wholeMotion(const Body<Real>& body) {
-  const auto motions = motionsOf(body, [](std::size_t) { return 0u; });
+  const auto motions =
+      motionsOf(body, std::views::iota(std::size_t(0), body.elementCount()), [](std::size_t) { return 0u; });
   return motions.empty() ? RigidMotion{} : motions.begin()->second;
 }
 

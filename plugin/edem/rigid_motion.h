@@ -19,7 +19,7 @@ struct RigidMotion {
   double kinetic() const { return 0.5 * (mass * velocity.squaredNorm() + spin.dot(angular)); }  ///< [J]
 };
 
-/// Of each fragment, by its lowest element.
+/// Of each fragment that does not sleep, by its lowest element.
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body);
 

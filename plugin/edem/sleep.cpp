@@ -62,6 +62,10 @@ template <class Real>
 void recount(Body<Real>& body) {
   body.sleepingCount = std::uint32_t(std::count(body.sleeping.begin(), body.sleeping.end(), 1));
   body.energyAsleep = body.sleepingCount > 0 ? energyAsleep(body) : 0;
+  body.massAsleep = 0;
+  for (std::uint32_t i = 0; body.sleepingCount > 0 && i < body.elementCount(); ++i)
+    if (body.alive[i] && body.sleeping[i]) body.massAsleep += body.mass[i];
+  listAwake(body);
 }
 
 template <class Real>
@@ -124,8 +128,8 @@ template <class Real>
 std::vector<std::uint8_t> slowFragments(const Body<Real>& body, double speed, double time, double dt,
                                         std::vector<float>& since) {
   std::vector<std::uint8_t> slow(body.elementCount(), 1);
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i] || body.sleeping[i]) continue;
+  for (const std::uint32_t i : body.awake) {
+    if (!body.alive[i]) continue;
     since[i] = fastestOf(body, i) < speed ? since[i] + float(dt) : 0;
     if (!(double(since[i]) > time)) slow[body.fragment[i]] = 0;
   }
@@ -135,8 +139,7 @@ std::vector<std::uint8_t> slowFragments(const Body<Real>& body, double speed, do
 // What swings is as fast again in half a period at most; what topples is only ever faster.
 template <class Real>
 void followSwings(Body<Real>& body) {
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i] || body.sleeping[i]) continue;
+  for (const std::uint32_t i : body.awake) {
     const float speed = float(fastestOf(body, i));
     if (!(body.slowTime[i] > 0)) body.slowPeak[i] = 0;
     if (speed > body.slowPeak[i]) {
@@ -162,10 +165,10 @@ void settle(World<Real>& w, double dt) {
       slow[b] = slowFragments(body, def.settleSpeed, def.settleTime, dt, body.slowTime);
     std::vector<double> rates(body.elementCount(), body.massDamping);
     bool any = body.massDamping > 0;
-    for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
+    for (const std::uint32_t i : body.awake) {
+      if (!body.alive[i]) continue;
       if (slow[b][i]) rates[i] = std::max(rates[i], def.settleRate);
-      // A single element has no deformation.
-      any = any || (body.alive[i] && !body.sleeping[i] && body.fragment[i] != i && slow[b][body.fragment[i]]);
+      any = any || (body.fragment[i] != i && slow[b][body.fragment[i]]);  // a single one has no deformation
     }
     if (any) dampDeformation(body, std::span<const double>(rates), dt, w.books);
   }
@@ -174,8 +177,8 @@ void settle(World<Real>& w, double dt) {
     Body<Real>& body = *w.bodies[b];
     if (body.asleep) continue;
     followSwings(body);
-    for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-      if (!body.alive[i] || body.sleeping[i]) continue;
+    for (const std::uint32_t i : body.awake) {
+      if (!body.alive[i]) continue;
       if (double(body.slowPeak[i]) > def.sleepSpeed && !body.slowTurned[i]) slow[b][body.fragment[i]] = 0;
     }
   }
@@ -185,8 +188,9 @@ void settle(World<Real>& w, double dt) {
   const double share = -std::expm1(-def.brakeRate * dt);
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    for (std::uint32_t i = 0; !body.asleep && i < body.elementCount(); ++i)
-      if (body.alive[i] && !body.sleeping[i] && slow[b][body.fragment[i]]) brake(body, i, share, w.books);
+    if (body.asleep) continue;
+    for (const std::uint32_t i : body.awake)
+      if (body.alive[i] && slow[b][body.fragment[i]]) brake(body, i, share, w.books);
   }
 }
 
@@ -199,8 +203,8 @@ void putToSleep(World<Real>& w, double dt) {
     for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
       const Body<Real>& body = *w.bodies[b];
       if (body.asleep) continue;
-      for (std::uint32_t i = 0; i < body.elementCount(); ++i)
-        if (body.alive[i] && !body.sleeping[i]) f(Place{b, i});
+      for (const std::uint32_t i : body.awake)
+        if (body.alive[i]) f(Place{b, i});
     }
   };
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b)
@@ -226,8 +230,11 @@ void putToSleep(World<Real>& w, double dt) {
     body.sleeping[p.element] = 1;
     fell[p.body] = 1;
   });
-  for (std::size_t b = 0; b < fell.size(); ++b)
-    if (fell[b]) recount(*w.bodies[b]);
+  for (std::size_t b = 0; b < fell.size(); ++b) {
+    if (!fell[b]) continue;
+    beginSubstep(*w.bodies[b]);  // for the last time of what sleeps now: where it is, without forces
+    recount(*w.bodies[b]);
+  }
 }
 
 template <class Real>

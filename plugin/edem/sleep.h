@@ -11,8 +11,8 @@ namespace rubble::edem {
 
 /// Lets fragments come to rest that have been slower than def.settleSpeed for def.settleTime: their
 /// deformation is damped at def.settleRate, or at Body::massDamping, which all have, if that is more. What
-/// is as slow under gravity for so long is borne by something: unless that moves, or it only ever gets faster,
-/// it is braked as a whole, too. At the end of a tick of `dt` seconds.
+/// is as slow under gravity for so long is borne by something: unless that moves, or it only ever gets
+/// faster, it is braked as a whole, too. At the end of a tick of `dt` seconds.
 template <class Real>
 void settle(World<Real>& world, double dt);
 

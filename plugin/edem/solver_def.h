@@ -15,8 +15,8 @@ struct SolverDef {
   /// Fragments slower than this for so long, which something bears or they would fall, come to rest: what
   /// they deform by is damped at least at that rate; 0: none do [m/s], [s], [1/s].
   double settleSpeed = 0, settleTime = 0.5, settleRate = 20;
-  /// And their motion as a whole at this one, if it does not only grow: pieces of a wall else still rock after
-  /// ten seconds, but what topples slowly must fall [1/s].
+  /// And their motion as a whole at this one, if it does not only grow: pieces of a wall else still rock
+  /// after ten seconds, but what topples slowly must fall [1/s].
   double brakeRate = 5;
 };
 

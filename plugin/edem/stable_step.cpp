@@ -7,24 +7,38 @@
 
 namespace rubble::edem {
 
+namespace {
+
+template <class Real>
+void addSpringRates(const Body<Real>& body, std::size_t s, std::span<ElementRates> rates) {
+  if (!body.intact[s]) return;
+  const Spring<Real>& spring = body.springs[s];
+  const auto add = [&](std::uint32_t i, double side) {
+    const double quarter = double((Real(0.5) * spring.rest + Real(side) * spring.offset).squaredNorm());
+    const double m = body.mass[i], inertia = body.inertia[i];
+    rates[i].stiffness += double(spring.stiffness) / m +
+                          (double(spring.stiffness) * quarter + double(spring.rotational)) / inertia;
+    rates[i].damping += double(spring.damping) / m +
+                        (double(spring.damping) * quarter + double(spring.rotationalDamping)) / inertia;
+  };
+  add(spring.first, 1);
+  if (!body.isAnchor(s)) add(spring.second, -1);
+}
+
+}  // namespace
+
 template <class Real>
 void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
   assert(rates.size() == body.elementCount());
   std::fill(rates.begin(), rates.end(), ElementRates{});
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
-    const auto add = [&](std::uint32_t i, double side) {
-      const double quarter = double((Real(0.5) * spring.rest + Real(side) * spring.offset).squaredNorm());
-      const double m = body.mass[i], inertia = body.inertia[i];
-      rates[i].stiffness += double(spring.stiffness) / m +
-                            (double(spring.stiffness) * quarter + double(spring.rotational)) / inertia;
-      rates[i].damping += double(spring.damping) / m +
-                          (double(spring.damping) * quarter + double(spring.rotationalDamping)) / inertia;
-    };
-    add(spring.first, 1);
-    if (!body.isAnchor(s)) add(spring.second, -1);
-  }
+  for (std::size_t s = 0; s < body.springs.size(); ++s) addSpringRates(body, s, rates);
+}
+
+template <class Real>
+void awakeSpringRates(const Body<Real>& body, std::span<ElementRates> rates) {
+  assert(rates.size() == body.elementCount());
+  std::fill(rates.begin(), rates.end(), ElementRates{});
+  for (const std::uint32_t s : body.awakeSprings) addSpringRates(body, s, rates);
 }
 
 ElementRates contactRates(const ContactLaw<double>& law, double inverseMass, double inverseInertia,
@@ -66,6 +80,8 @@ RateBound springBound(const Body<Real>& body, std::span<const ElementRates> rate
 
 template void springRates(const Body<float>&, std::span<ElementRates>);
 template void springRates(const Body<double>&, std::span<ElementRates>);
+template void awakeSpringRates(const Body<float>&, std::span<ElementRates>);
+template void awakeSpringRates(const Body<double>&, std::span<ElementRates>);
 template RateBound springBound(const Body<float>&, std::span<const ElementRates>);
 template RateBound springBound(const Body<double>&, std::span<const ElementRates>);
 

@@ -17,6 +17,10 @@ struct ElementRates {
 template <class Real>
 void springRates(const Body<Real>& body, std::span<ElementRates> rates);
 
+/// The same of what is awake; nothing of the rest.
+template <class Real>
+void awakeSpringRates(const Body<Real>& body, std::span<ElementRates> rates);
+
 /// Bound of the highest frequency: max over unbroken springs of s_i + s_j (a fixed end: 0), by splitting each
 /// mass over its springs and bounding each spring alone (Irons and Treharne 1971). Elements without springs
 /// count s_i alone.

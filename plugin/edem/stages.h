@@ -32,7 +32,7 @@ struct TickReport {
   std::vector<base::CrushedElement> crushed;
 };
 
-/// Sets forces, loads and overload lists to nothing and refreshes positions.
+/// Sets forces, loads and overload lists to nothing and refreshes positions, of what is awake.
 template <class Real>
 void beginSubstep(Body<Real>& body);
 

@@ -35,9 +35,7 @@ void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bo
     m_springs[b].assign(bodies[b]->elementCount(), {});
     const Body<Real>& body = *bodies[b];
     if (body.asleep) continue;
-    springRates(body, std::span(m_springs[b]));
-    for (std::size_t i = 0; body.sleepingCount > 0 && i < body.elementCount(); ++i)
-      if (body.sleeping[i]) m_springs[b][i] = {};
+    awakeSpringRates(body, std::span(m_springs[b]));
   }
 }
 
@@ -98,13 +96,13 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     const Body<Real>& body = *bodies[b];
     if (body.asleep) continue;
     const std::vector<ElementRates>& rates = m_rates[b];
-    for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    for (const std::uint32_t s : body.awakeSprings) {
       const Spring<Real>& spring = body.springs[s];
-      if (!body.intact[s] || body.sleeping[spring.first]) continue;
+      if (!body.intact[s]) continue;
       add(b, rates[spring.first], body.isAnchor(s) ? ElementRates{} : rates[spring.second]);
     }
-    for (std::size_t i = 0; i < rates.size(); ++i)
-      if (body.alive[i] && !body.sleeping[i]) add(b, rates[i], {});
+    for (const std::uint32_t i : body.awake)
+      if (body.alive[i]) add(b, rates[i], {});
   }
   for (const PairList<Real>& l : lists.lists()) {
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];

@@ -169,6 +169,7 @@ void closeTick(World<Real>& w, double dt) {
     if (body->asleep || !broke) continue;
     labelFragments(*body);
     splitFrames(*body);
+    listAwake(*body);
   }
   settle(w, dt);
   for (auto& body : w.bodies)
