@@ -55,10 +55,9 @@ std::string errorText(const CaseRow& row) {
 // What an error is made of, in rows: the reference itself and its scatter.
 void addReference(TextRows& table, const ReportCase& c, const CaseOutcome& outcome) {
   for (const bool isScatter : {false, true}) {
-    std::vector<std::string> row(table.front().size() - outcome.quantities.size());
-    row[0] = c.name;
-    row[1] = isScatter ? "scatter of the reference, relative" : "reference";
-    if (isScatter) row[4] = rounded(outcome.scatter);
+    std::vector<std::string> row = {c.name, isScatter ? "scatter of the reference, relative" : "reference",
+                                    "", "", isScatter ? rounded(outcome.scatter) : ""};
+    row.resize(table.front().size() - outcome.quantities.size());
     for (const CaseQuantity& quantity : outcome.quantities)
       row.push_back(rounded(isScatter ? quantity.scatter : quantity.expected));
     table.push_back(row);

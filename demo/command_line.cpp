@@ -27,6 +27,7 @@ struct Raw {
   std::string size = "1280x720";
   std::vector<std::string> sets, sweeps, reported;
   std::optional<std::string> frames, seed, anchor;
+  std::optional<int> cases;
   bool noRender = false;
 };
 
@@ -123,10 +124,19 @@ void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown, CSV and SVG");
   report->add_option("WHAT", raw.reported,
                      "cases with a known answer (" + reportCaseNames() + "), or " + kMaterialReportName +
-                         " (what each preset reaches of its strength and stiffness), or one scene (" +
-                         sceneNames() + ", or path of a JSON file)");
+                         " (what each preset reaches of its strength and stiffness), or " +
+                         kStabilityReportName +
+                         " (what stiff and extreme generated cases come to), or one scene (" + sceneNames() +
+                         ", or path of a JSON file)");
   report->add_flag("--all", line.caseReport.all, "all cases");
-  report->add_flag("--quick", line.caseReport.quick, "of cases: fewer settings");
+  report->add_flag("--quick", line.caseReport.quick,
+                   std::string("of cases: fewer settings; of ") + kStabilityReportName + ": the first " +
+                       std::to_string(kQuickStabilityCases));
+  report
+      ->add_option("--cases", raw.cases,
+                   std::string("of ") + kStabilityReportName + ": the first so many, default " +
+                       std::to_string(kStabilityCases))
+      ->check(CLI::Range(1, kMostStabilityCases));
   report->add_flag("--reference", line.caseReport.reference,
                    "of cases (" + referenceCaseNames() +
                        "): makes what they are compared with anew, in minutes, and runs nothing else");
@@ -200,15 +210,34 @@ void checkReference(const CommandLine& line) {
   if (!line.report.write.empty()) refuse("--write");
 }
 
-// Several words are cases; one may be a scene, or the materials.
+void sortStability(CommandLine& line, const Raw& raw) {
+  if (line.caseReport.reference)
+    throw InputError("--reference", kStabilityReportName, "has no reference, must be left out");
+  if (line.caseReport.quick && raw.cases)
+    throw InputError("--quick", std::to_string(kQuickStabilityCases),
+                     "is another number than that of --cases, one must be left out");
+  refuseSceneOptions(raw, kStabilityReportName);
+  line.command = CommandLine::Command::StabilityReport;
+  const int standard = line.caseReport.quick ? kQuickStabilityCases : kStabilityCases;
+  line.stabilityReport = {raw.cases.value_or(standard), line.report.folder, line.report.write};
+}
+
+// Several words are cases; one may be a scene, the materials or stability.
 void sortReport(CommandLine& line, const Raw& raw) {
   CaseReportOptions& cases = line.caseReport;
   if (raw.reported.empty() && !cases.all)
     throw InputError("report", "",
                      "has nothing to do, must have --all, a scene, " + std::string(kMaterialReportName) +
-                         ", or cases of: " + reportCaseNames());
+                         ", " + kStabilityReportName + ", or cases of: " + reportCaseNames());
+  const auto isAsked = [&](const char* word) {
+    return raw.reported == std::vector<std::string>{word} && !cases.all;
+  };
+  if (isAsked(kStabilityReportName)) return sortStability(line, raw);
+  if (raw.cases)
+    throw InputError("--cases", std::to_string(*raw.cases),
+                     std::string("is of ") + kStabilityReportName + ", must be left out");
   const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
-  if (raw.reported == std::vector<std::string>{kMaterialReportName} && !cases.all) {
+  if (isAsked(kMaterialReportName)) {
     if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
     if (cases.reference) throw InputError("--reference", kMaterialReportName, "is no case, must be left out");
     refuseSceneOptions(raw, kMaterialReportName);
@@ -222,7 +251,8 @@ void sortReport(CommandLine& line, const Raw& raw) {
     if (!line.scene.empty() && !isPath(line.scene) && !isSceneName(line.scene))
       throw InputError("report", line.scene,
                        "is no case and no scene, must be one of: " + reportCaseNames() + ", " + sceneNames() +
-                           ", " + kMaterialReportName + ", or the path of a JSON file");
+                           ", " + kMaterialReportName + ", " + kStabilityReportName +
+                           ", or the path of a JSON file");
     if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
     if (cases.reference) throw InputError("--reference", line.scene, "is a scene, must be left out");
     return;
@@ -280,7 +310,8 @@ CommandLine parseCommandLine(int argc, char** argv) {
   }
   if (line.command == CommandLine::Command::Report) sortReport(line, raw);
   if (line.command == CommandLine::Command::CaseReport ||
-      line.command == CommandLine::Command::MaterialReport)
+      line.command == CommandLine::Command::MaterialReport ||
+      line.command == CommandLine::Command::StabilityReport)
     return line;
   if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");
   for (const std::string& set : raw.sets) line.overrides.push_back(parseOverride(set));

@@ -11,20 +11,32 @@
 #include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
+#include "demo/stability_report.h"
 #include "demo/view.h"
 
 namespace rubble::demo {
 
 struct CommandLine {
-  enum class Command { Run, View, Info, Report, CaseReport, MaterialReport, BenchPaper, Cook };
+  enum class Command {
+    Run,
+    View,
+    Info,
+    Report,
+    CaseReport,
+    MaterialReport,
+    StabilityReport,
+    BenchPaper,
+    Cook
+  };
   Command command = Command::Run;
-  std::string scene;  ///< empty for BenchPaper, CaseReport, Cook and MaterialReport
+  std::string scene;  ///< empty for BenchPaper, Cook and reports of no scene
   std::vector<Override> overrides;
   RunOptions run;
   ViewOptions view;
   ReportOptions report;
   CaseReportOptions caseReport;
   MaterialReportOptions materialReport;
+  StabilityReportOptions stabilityReport;
   BenchPaperOptions benchPaper;
   CookFileOptions cook;
 };

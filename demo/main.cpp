@@ -24,6 +24,8 @@ void execute(const CommandLine& line) {
   if (line.command == CommandLine::Command::CaseReport) return caseReport(line.caseReport, std::cout);
   if (line.command == CommandLine::Command::MaterialReport)
     return materialReport(line.materialReport, std::cout);
+  if (line.command == CommandLine::Command::StabilityReport)
+    return stabilityReport(line.stabilityReport, std::cout);
   if (line.command == CommandLine::Command::BenchPaper) return benchPaper(line.benchPaper, std::cout);
   if (line.command == CommandLine::Command::Info && isAssetFile(line.scene))
     return describeAsset(line.scene, std::cout);
@@ -33,6 +35,7 @@ void execute(const CommandLine& line) {
     case CommandLine::Command::CaseReport:
     case CommandLine::Command::Cook:
     case CommandLine::Command::MaterialReport:
+    case CommandLine::Command::StabilityReport:
       break;
     case CommandLine::Command::Run:
       runScene(scene, line.run, std::cout);

@@ -9,6 +9,7 @@
 #include "edem/body_books.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
+#include "edem/host_moves.h"
 #include "edem/parking.h"
 #include "edem/prestress.h"
 #include "edem/sleep.h"

@@ -10,8 +10,8 @@ namespace rubble::test {
 
 /// Throws demo::InputError for what the program refuses. Without the program's name.
 inline demo::CommandLine parsed(std::vector<std::string> words) {
-  words.insert(words.begin(), "rubble");
-  std::vector<char*> raw;
+  std::string program = "rubble";
+  std::vector<char*> raw = {program.data()};
   for (std::string& word : words) raw.push_back(word.data());
   return demo::parseCommandLine(int(raw.size()), raw.data());
 }

@@ -1,48 +1,26 @@
-// All cases. The program also runs one alone, `--case N`, or writes the outcomes of all as a markdown table,
-// `--write FILE`.
+// All cases. The program also runs one alone and tells of each tick, `--case N`; `rubble report stability`
+// makes a table of all.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
-#include "stability/outcome_table.h"
-#include "stability/runner.h"
+#include "demo/stability/known_faults.h"
+#include "demo/stability/runner.h"
 
 namespace rubble::test {
 namespace {
 
 constexpr int kCases = 500, kBlock = 25;
 
-// Faults that are known and not mended. A case that holds again leaves the list.
-struct Known {
-  int number;
-  const char* fault;
-};
-constexpr std::array<Known, 3> kKnown = {{
-    {79,
-     "a light cylinder of Model::paper() is judged in the middle of a blow of five substeps, under ticks "
-     "that "
-     "jump from 4 to 66 ms: 27 % then, 7 % when it is over"},
-    {135, "a box and the whole body that it strikes hold 21 % more after the tick of the thaw"},
-    {321,
-     "a plate of Model::paper() at 978 m/s gets 7 % from elements that do not lose it; the alarm says so"},
-}};
-
-bool isKnown(int number) {
-  return std::any_of(kKnown.begin(), kKnown.end(), [=](const Known& k) { return k.number == number; });
-}
-
 class StabilityLong : public testing::TestWithParam<int> {};
 
 TEST_P(StabilityLong, StepsAreFiniteAndMakeNoEnergyOrSayWhy) {
   for (int n = GetParam(); n < GetParam() + kBlock; ++n) {
-    const Case c = stabilityCase(n);
-    const Outcome outcome = run(c);
-    if (isKnown(n)) {
+    const stability::Case c = stability::stabilityCase(n);
+    const stability::Outcome outcome = stability::run(c);
+    if (stability::knownFault(n)) {
       EXPECT_FALSE(outcome.violations.empty()) << "is mended: take it off the list\n" << describe(c);
       continue;
     }
@@ -52,41 +30,25 @@ TEST_P(StabilityLong, StepsAreFiniteAndMakeNoEnergyOrSayWhy) {
 
 INSTANTIATE_TEST_SUITE_P(CasesFrom, StabilityLong, testing::Range(0, kCases, kBlock));
 
-// Prints the case before it runs, for one that does not come back.
-CaseResult show(int number, const std::function<void(const std::string&)>& trace = {}) {
-  const Case c = stabilityCase(number);
+// Prints the case before it runs, for one that does not come back. Whether it holds.
+bool show(int number) {
+  const stability::Case c = stability::stabilityCase(number);
   std::printf("%s\n", describe(c).c_str());
   std::fflush(stdout);
-  const Outcome outcome = run(c, trace);
+  const stability::Outcome outcome =
+      stability::run(c, [](const std::string& line) { std::printf("  %s\n", line.c_str()); });
   std::printf("  %s after %d ticks, work %.3g, put %.4g J, held %.4g J%s%s\n", nameOf(outcome.kind),
               outcome.ticks, outcome.work, outcome.energyPut, outcome.energyHeld,
               outcome.said.empty() ? "" : ": ", outcome.said.c_str());
   for (const std::string& violation : outcome.violations) std::printf("  BROKEN: %s\n", violation.c_str());
-  std::fflush(stdout);
-  return {c, outcome};
-}
-
-int write(const char* file) {
-  std::vector<CaseResult> results;
-  for (int n = 0; n < kCases; ++n) results.push_back(show(n));
-  std::ofstream out(file);
-  out << outcomeTable(results);
-  return out.flush() ? 0 : 1;
+  return outcome.violations.empty();
 }
 
 }  // namespace
 }  // namespace rubble::test
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--case") == 0)
-    return rubble::test::show(
-               std::atoi(argv[2]),
-               [](const std::string& l) {
-                 std::printf("  %s\n", l.c_str());
-               }).outcome.violations.empty()
-               ? 0
-               : 1;
-  if (argc == 3 && std::strcmp(argv[1], "--write") == 0) return rubble::test::write(argv[2]);
+  if (argc == 3 && std::strcmp(argv[1], "--case") == 0) return rubble::test::show(std::atoi(argv[2])) ? 0 : 1;
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -1,7 +1,7 @@
 // A few of the cases, in every run; stability_long_test.cpp has the rest.
 #include <gtest/gtest.h>
 
-#include "stability/runner.h"
+#include "demo/stability/runner.h"
 
 namespace rubble::test {
 namespace {
@@ -9,8 +9,9 @@ namespace {
 class Stability : public testing::TestWithParam<int> {};
 
 TEST_P(Stability, StepIsFiniteAndMakesNoEnergyOrSaysWhy) {
-  const Case c = stabilityCase(GetParam());
-  for (const std::string& violation : run(c).violations) ADD_FAILURE() << violation << "\n" << describe(c);
+  const stability::Case c = stability::stabilityCase(GetParam());
+  for (const std::string& violation : stability::run(c).violations)
+    ADD_FAILURE() << violation << "\n" << describe(c);
 }
 
 INSTANTIATE_TEST_SUITE_P(Case, Stability, testing::Range(0, 25));

@@ -1,4 +1,4 @@
-#include "stability/runner.h"
+#include "demo/stability/runner.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,13 +10,12 @@
 #include <memory>
 #include <numbers>
 
-#include "stability/case_world.h"
+#include "demo/stability/case_world.h"
+#include "demo/stability/rigid_books.h"
 
-namespace rubble::test {
+namespace rubble::stability {
 namespace {
 
-constexpr int kMostTicks = 120;
-constexpr double kLongest = 1;  // of a run [s]
 constexpr double kFloat = std::numeric_limits<float>::epsilon();
 
 class Run {
@@ -42,7 +41,7 @@ class Run {
            m_outcome.violations.empty()) {
       const double dt = m_world.stepOf(tick);
       if (tick == kHappeningTick) happen();
-      beginTick();
+      keepPlaces();
       m_world.step(dt);
       time += dt;
       ++tick;
@@ -57,8 +56,6 @@ class Run {
   }
 
  private:
-  static constexpr int kHappeningTick = 3;
-
   std::string lineOf(int tick, double dt) const {
     const Destruction& destruction = *m_world.bullet().destruction;
     const Ledger& l = destruction.ledger();
@@ -89,35 +86,20 @@ class Run {
   }
 
   // Of dynamic bodies that Bullet moves, whole ones too [J].
-  double rigidKinetic() const {
-    double sum = 0;
-    for (const btRigidBody* body : m_world.moved()) {
-      const btVector3 w = body->getAngularVelocity();
-      const btMatrix3x3& turn = body->getWorldTransform().getBasis();
-      const btVector3 local = w * turn, inverse = body->getInvInertiaDiagLocal();
-      for (int a = 0; a < 3; ++a)
-        if (inverse[a] > 0) sum += 0.5 * double(local[a] * local[a]) / double(inverse[a]);
-      sum += 0.5 / double(body->getInvMass()) * double(body->getLinearVelocity().length2());
-    }
-    return sum;
-  }
+  double rigidKinetic() const { return kineticEnergy(m_world.moved()); }
 
   void keepPlaces() {
     m_places.clear();
-    m_bulletPlaces.clear();
     for (const DestructibleBody* body : m_world.bullet().destruction->bodies()) {
       std::vector<ElementPose>& poses = m_places[body->id()];
       poses.resize(body->asset()->elementCount());
       body->poses(poses);
     }
-    for (const btRigidBody* body : m_world.moved())
-      m_bulletPlaces[body] = {body->getWorldTransform().getOrigin(), body->getLinearVelocity(),
-                              m_case.gravity, body->getTotalForce()};
+    m_weights.begin(m_world.moved());
   }
-  void beginTick() { keepPlaces(); }
 
   void judge(double dt) {
-    bookWeight(dt);
+    m_put += m_weights.work(m_world.moved(), m_case.gravity, dt);
     judgeEnergy();
     judgeSpeeds(dt);
     judgeBullet();
@@ -125,22 +107,6 @@ class Run {
     if (m_world.bullet().destruction->lastSubsteps() > most)
       violate("took " + std::to_string(m_world.bullet().destruction->lastSubsteps()) +
               " substeps, allowed are " + std::to_string(most));
-  }
-
-  // What gravity and the application's forces did on bodies that Bullet moved: by their way or by their mean
-  // speed, whichever is more, for places far from the origin are rounded.
-  void bookWeight(double dt) {
-    for (const btRigidBody* body : m_world.moved()) {
-      const auto before = m_bulletPlaces.find(body);
-      if (before == m_bulletPlaces.end()) continue;
-      const auto& [at, speed, gravity, force] = before->second;
-      const double mass = 1 / double(body->getInvMass());
-      const btVector3 pull = force + btVector3(0, btScalar(-mass * gravity), 0);
-      const double way = double(pull.dot(body->getWorldTransform().getOrigin() - at));
-      const double mean = 0.5 * dt * double(pull.dot(body->getLinearVelocity() + speed));
-      const double free = dt * double(pull.dot(speed)) + 0.5 * dt * dt / mass * double(pull.length2());
-      m_put += std::max({way, mean, force.fuzzyZero() ? way : free});
-    }
   }
 
   void judgeEnergy() {
@@ -164,10 +130,7 @@ class Run {
     m_mostPut = std::max({m_mostPut, put, m_put});
     m_outcome.energyPut = put;
     m_outcome.energyHeld = held;
-    // Places of Bullet's bodies, and of elements as they are told, are floats.
-    const double rounded =
-        4 * kFloat * m_world.mass() * m_case.gravity * (m_case.distance + 100 * m_case.radius);
-    if (!m_pushedByBullet && held > put + kEnergyTolerance * m_mostPut + rounded)
+    if (!m_pushedByBullet && held > put + kEnergyTolerance * m_mostPut + m_world.roundedEnergy())
       violate("holds " + std::to_string(held) + " J, put in were " + std::to_string(put) + " J, at most " +
               std::to_string(m_mostPut) + " J; the alarm has " + std::to_string(l.made) + " J");
   }
@@ -200,13 +163,8 @@ class Run {
   }
 
   void judgeBullet() {
-    for (const btRigidBody* body : m_world.healthy()) {
-      const btVector3 &x = body->getWorldTransform().getOrigin(), &v = body->getLinearVelocity(),
-                      &w = body->getAngularVelocity();
-      for (int a = 0; a < 3; ++a)
-        if (!std::isfinite(x[a]) || !std::isfinite(v[a]) || !std::isfinite(w[a]))
-          return violate("a rigid body is not finite");
-    }
+    for (const btRigidBody* body : m_world.healthy())
+      if (!isFinite(*body)) return violate("a rigid body is not finite");
   }
 
   void close() {
@@ -223,12 +181,6 @@ class Run {
     if (m_outcome.kind != Outcome::Kind::Stopped) judgeBullet();
   }
 
-  struct Before {
-    btVector3 at, speed;
-    double gravity;
-    btVector3 force;
-  };
-
   Case m_case;
   CaseWorld m_world;
   std::function<void(const std::string&)> m_trace;
@@ -238,7 +190,7 @@ class Run {
   double m_mostDriven = 0;
   bool m_pushedByBullet = false;
   std::map<std::uint32_t, std::vector<ElementPose>> m_places;
-  std::map<const btRigidBody*, Before> m_bulletPlaces;
+  WeightBooks m_weights;
 };
 
 }  // namespace
@@ -252,4 +204,4 @@ Outcome run(const Case& c, const std::function<void(const std::string&)>& trace)
   return Run(c, trace).take();
 }
 
-}  // namespace rubble::test
+}  // namespace rubble::stability

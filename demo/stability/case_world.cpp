@@ -1,19 +1,25 @@
-#include "stability/case_world.h"
+#include "demo/stability/case_world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "support/grid_asset.h"
+#include "bullet/convert.h"
+#include "demo/stability/grid_asset.h"
+#include "rubble/cook.h"
 
-namespace rubble::test {
+namespace rubble::stability {
+
+using bullet::toBullet;
+
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kShortestTick = 1e-3, kLongestTick = 1.0 / 15;  // [s]
 
-btVector3 vector(const Eigen::Vector3d& v) {
-  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
+// Bullet's gyroscopic term takes the product of three inertias, which for hills is more than a float holds.
+void calmGyroscope(btRigidBody& body) {
+  if (std::pow(double(body.getLocalInertia().length()), 3) > double(std::numeric_limits<float>::max()))
+    body.setFlags(body.getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
 }
 
 // Numbers of cubes along x, y, z for about so many elements.
@@ -39,7 +45,9 @@ std::array<int, 3> cubesOf(Shape shape, int elements) {
 
 }  // namespace
 
-CaseWorld::CaseWorld(const Case& c) : m_case(c), m_bullet(definition()) {
+CaseWorld::CaseWorld(const Case& c, Engine engine) : m_case(c), m_engine(engine) {
+  if (engine == Engine::Rubble)
+    m_bullet.destruction = std::make_unique<Destruction>(m_bullet.world, definition());
   m_bullet.world.setGravity({0, btScalar(-c.gravity), 0});
   m_bullet.ground->setFriction(btScalar(c.friction));
   m_bullet.ground->setRestitution(btScalar(c.restitution));
@@ -76,6 +84,7 @@ std::shared_ptr<const Asset> CaseWorld::asset(int elements, bool anchored) const
 
 void CaseWorld::addDestructible(const std::shared_ptr<const Asset>& asset, const Material& material,
                                 const btVector3& at, const btVector3& velocity, double spin, bool anchored) {
+  if (m_engine == Engine::Stock) return addStock(*asset, material, at, velocity, spin, anchored);
   DestructibleBodyDef def;
   def.asset = asset;
   def.material = material;
@@ -111,6 +120,25 @@ void CaseWorld::addDestructible(const std::shared_ptr<const Asset>& asset, const
   }
 }
 
+void CaseWorld::addStock(const Asset& asset, const Material& material, const btVector3& at,
+                         const btVector3& velocity, double spin, bool anchored) {
+  const Eigen::AlignedBox3d box = asset.bounds();
+  double mass = 0;
+  for (const double volume : asset.volumes) mass += material.density * volume;
+  m_mass += mass;
+  m_shapes.push_back(std::make_unique<btBoxShape>(toBullet(0.5 * box.sizes())));
+  btRigidBody* body =
+      m_bullet.add(anchored ? 0 : btScalar(mass), *m_shapes.back(), at + toBullet(box.center()));
+  calmGyroscope(*body);
+  body->setFriction(btScalar(material.friction));
+  body->setRestitution(btScalar(material.restitution));
+  if (!anchored) {
+    body->setLinearVelocity(velocity);
+    body->setAngularVelocity(btScalar(spin) * btVector3(btScalar(0.6), 0, btScalar(0.8)));
+  }
+  m_stock.push_back(body);
+}
+
 void CaseWorld::build() {
   const auto own = asset(m_case.elements, m_case.anchored);
   const Eigen::AlignedBox3d box = own->bounds();
@@ -119,7 +147,7 @@ void CaseWorld::build() {
   const Eigen::Vector3d at(far, m_case.anchored ? 0 : 0.01 * m_case.radius, far);
   m_middle = box.center() + at;
   m_half = 0.5 * box.sizes();
-  addDestructible(own, materialOf(m_case), vector(at), {0, 0, 0}, m_case.spin, m_case.anchored);
+  addDestructible(own, materialOf(m_case), toBullet(at), {0, 0, 0}, m_case.spin, m_case.anchored);
   if (m_case.impactor == Impactor::Destructible) {
     addOtherBody();
   } else if (m_case.impactor != Impactor::None) {
@@ -137,34 +165,35 @@ void CaseWorld::addOtherBody() {
   m.density = std::clamp(m.density * m_case.massRatio, 100.0, 20000.0);
   m.friction = 0.3;
   const Eigen::Vector3d at = m_middle + Eigen::Vector3d(0, m_half.y() + 0.01 * m_case.radius, 0);
-  addDestructible(asset(std::max(1, m_case.elements / 4), false), m, vector(at),
+  addDestructible(asset(std::max(1, m_case.elements / 4), false), m, toBullet(at),
                   {0, btScalar(-m_case.speed), 0}, 0, false);
 }
 
 void CaseWorld::addImpactor() {
   const double half = m_case.size * m_case.radius;
   const auto h = btScalar(half);
+  std::unique_ptr<btCollisionShape> shape;
   Eigen::Vector3d at = m_middle, towards(0, 0, 1);
   double gap = 0.1 * m_case.radius + 1.5 * m_case.speed * m_case.frameStep;
   switch (m_case.impactor) {
     case Impactor::Box:
     case Impactor::Kinematic:
-      m_shape = std::make_unique<btBoxShape>(btVector3(h, h, h));
+      shape = std::make_unique<btBoxShape>(btVector3(h, h, h));
       break;
     case Impactor::Plate:
-      m_shape = std::make_unique<btBoxShape>(
+      shape = std::make_unique<btBoxShape>(
           btVector3(btScalar(m_half.x() + half), btScalar(0.2 * m_case.radius), btScalar(m_half.z() + half)));
       towards = {0, -1, 0};
       gap = 0.01 * m_case.radius;
       break;
     case Impactor::Capsule:
-      m_shape = std::make_unique<btCapsuleShape>(h, 2 * h);
+      shape = std::make_unique<btCapsuleShape>(h, 2 * h);
       break;
     case Impactor::Cylinder:
-      m_shape = std::make_unique<btCylinderShape>(btVector3(h, 2 * h, h));
+      shape = std::make_unique<btCylinderShape>(btVector3(h, 2 * h, h));
       break;
     default:
-      m_shape = std::make_unique<btSphereShape>(h);
+      shape = std::make_unique<btSphereShape>(h);
       break;
   }
   const double thick = m_case.impactor == Impactor::Plate ? 0.2 * m_case.radius : half;
@@ -173,10 +202,9 @@ void CaseWorld::addImpactor() {
   const bool kinematic = m_case.impactor == Impactor::Kinematic;
   const double mass = kinematic ? 0 : m_case.massRatio * elementMass(m_case);
   m_mass += mass;
-  m_impactor = m_bullet.add(btScalar(mass), *m_shape, vector(at));
-  // Bullet's gyroscopic term takes the product of three inertias, which for hills is more than a float holds.
-  if (std::pow(double(m_impactor->getLocalInertia().length()), 3) > double(std::numeric_limits<float>::max()))
-    m_impactor->setFlags(m_impactor->getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
+  m_shapes.push_back(std::move(shape));
+  m_impactor = m_bullet.add(btScalar(mass), *m_shapes.back(), toBullet(at));
+  calmGyroscope(*m_impactor);
   // Bullet pushes bodies out of each other with energy of its own: what meets the elements does not meet the
   // ground.
   m_impactor->setIgnoreCollisionCheck(m_bullet.ground, true);
@@ -186,7 +214,7 @@ void CaseWorld::addImpactor() {
     m_impactor->setCollisionFlags(m_impactor->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     m_impactor->setActivationState(DISABLE_DEACTIVATION);
   }
-  m_impactor->setLinearVelocity(vector(m_case.speed * towards));
+  m_impactor->setLinearVelocity(toBullet(m_case.speed * towards));
   if (m_case.size < 3) m_impactor->setAngularVelocity({btScalar(m_case.spin), 0, 0});
 }
 
@@ -206,77 +234,34 @@ void CaseWorld::step(double dt) {
   m_bullet.world.stepSimulation(btScalar(dt), 1, btScalar(dt));
 }
 
-void CaseWorld::happen() {
-  Destruction& destruction = *m_bullet.destruction;
-  DestructibleBody* body = destruction.bodies().front();
-  const auto nan = btScalar(kNaN);
-  switch (m_case.happening) {
-    case Happening::None:
-      return;
-    case Happening::Pause:
-      for (int i = 0; i < 3; ++i) m_bullet.world.stepSimulation(0, 1, btScalar(m_case.frameStep));
-      return;
-    case Happening::RemoveBody:
-      destruction.removeBody(body);
-      return;
-    case Happening::Strike:
-      destruction.strike(body);
-      return;
-    case Happening::NaNOnBody:
-      body->setLinearVelocity({nan, 0, 0});
-      m_bodySpoiled = true;
-      return;
-    default:
-      break;
-  }
-  if (!m_impactor) return;
-  const btScalar mass = m_impactor->getInvMass() > 0 ? 1 / m_impactor->getInvMass() : 0;
-  btTransform at = m_impactor->getWorldTransform();
-  switch (m_case.happening) {
-    case Happening::TeleportImpactor:
-      at.setOrigin(vector(m_middle));
-      m_impactor->setWorldTransform(at);
-      break;
-    case Happening::RemoveImpactor:
-      m_bullet.world.removeRigidBody(m_impactor);
-      delete m_impactor;
-      m_impactor = nullptr;
-      break;
-    case Happening::HugeForce:
-      m_impactor->applyCentralForce({0, btScalar(-1e7) * mass, 0});
-      break;
-    case Happening::NaNVelocity:
-      m_impactor->setLinearVelocity({nan, 0, 0});
-      m_spoiled = true;
-      break;
-    case Happening::NaNPlace:
-      at.setOrigin({nan, 0, 0});
-      m_impactor->setWorldTransform(at);
-      m_spoiled = true;
-      break;
-    case Happening::InfiniteForce:
-      m_impactor->applyCentralForce({0, 0, std::numeric_limits<btScalar>::infinity()});
-      m_spoiled = true;
-      break;
-    default:
-      break;
-  }
+std::vector<btRigidBody*> CaseWorld::bodies() const {
+  if (!m_bullet.destruction) return m_stock;
+  const auto& bodies = m_bullet.destruction->bodies();
+  return {bodies.begin(), bodies.end()};
 }
 
 std::vector<const btRigidBody*> CaseWorld::healthy() const {
   std::vector<const btRigidBody*> list = {m_bullet.ground};
   if (m_impactor && !m_spoiled) list.push_back(m_impactor);
-  for (const DestructibleBody* body : m_bullet.destruction->bodies())
-    if (!m_bodySpoiled || body != m_bullet.destruction->bodies().front()) list.push_back(body);
+  const std::vector<btRigidBody*> all = bodies();
+  list.insert(list.end(), all.begin() + (m_bodySpoiled ? 1 : 0), all.end());
   return list;
 }
 
 std::vector<const btRigidBody*> CaseWorld::moved() const {
   std::vector<const btRigidBody*> list;
   if (m_impactor && !m_spoiled && m_impactor->getInvMass() > 0) list.push_back(m_impactor);
-  for (const DestructibleBody* body : m_bullet.destruction->bodies())
-    if (body->isWhole() && body->getInvMass() > 0 && !m_bodySpoiled) list.push_back(body);
+  if (m_bodySpoiled) return list;
+  for (const btRigidBody* body : m_stock)
+    if (body->getInvMass() > 0) list.push_back(body);
+  if (m_bullet.destruction)
+    for (const DestructibleBody* body : m_bullet.destruction->bodies())
+      if (body->isWhole() && body->getInvMass() > 0) list.push_back(body);
   return list;
+}
+
+const btRigidBody* CaseWorld::kinematic() const {
+  return m_impactor && m_impactor->isKinematicObject() ? m_impactor : nullptr;
 }
 
 double CaseWorld::elementsPut() const {
@@ -285,8 +270,9 @@ double CaseWorld::elementsPut() const {
 double CaseWorld::lightest() const {
   return m_lightest;
 }
-double CaseWorld::mass() const {
-  return m_mass;
+double CaseWorld::roundedEnergy() const {
+  constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
+  return 4 * kEpsilon * m_mass * m_case.gravity * (m_case.distance + 100 * m_case.radius);
 }
 
-}  // namespace rubble::test
+}  // namespace rubble::stability

@@ -1,4 +1,4 @@
-#include "stability/case.h"
+#include "demo/stability/case.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <initializer_list>
 
-namespace rubble::test {
+namespace rubble::stability {
 namespace {
 
 // Coordinates of the n-th point of the Kronecker sequence frac(1/2 + n sqrt(prime)), one dimension a call.
@@ -160,4 +160,4 @@ std::string describe(const Case& c) {
   return text;
 }
 
-}  // namespace rubble::test
+}  // namespace rubble::stability

@@ -7,9 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "stability/case.h"
+#include "demo/stability/case.h"
 
-namespace rubble::test {
+namespace rubble::stability {
+
+inline constexpr int kMostTicks = 120;
+inline constexpr double kLongest = 1;  ///< of a run [s]
+/// Before this tick the case's happening happens.
+inline constexpr int kHappeningTick = 3;
 
 struct Outcome {
   enum class Kind {
@@ -36,4 +41,4 @@ inline constexpr double kEnergyTolerance = 0.05;
 /// `trace`, if any, gets a line about each tick.
 Outcome run(const Case& c, const std::function<void(const std::string&)>& trace = {});
 
-}  // namespace rubble::test
+}  // namespace rubble::stability

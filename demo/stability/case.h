@@ -7,7 +7,7 @@
 #include "rubble/material.h"
 #include "rubble/regime.h"
 
-namespace rubble::test {
+namespace rubble::stability {
 
 enum class Shape { Block, Plate, Needle, Sliver, Packed };
 enum class Strength { Usual, Zero, Infinite };
@@ -78,4 +78,4 @@ inline constexpr double kWorkBudget = 6e5;
 /// The most substeps that the case may take in 1/60 s, by that budget.
 int maxSubsteps(const Case& c);
 
-}  // namespace rubble::test
+}  // namespace rubble::stability
