@@ -3,11 +3,14 @@
 // is allowed.
 //
 // What the numbers are measured against are the cell meshes, whose vertices are floats: at 10 km from the
-// origin they are half a millimetre off. Every comparison with them allows for that rounding and no more.
+// frame's origin they are half a millimetre off. Every comparison with them allows for that rounding and no
+// more.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -21,6 +24,28 @@ struct AssetScale {
   Eigen::AlignedBox3d bounds;  ///< of the cell vertices, grown by `rounding` [m]
   double rounding;             ///< no cell vertex is farther from its place before it became float [m]
 };
+
+/// Of the mean spacing of the elements: no vertex may be farther from its place before it became float.
+/// Planes through such vertices are then within twice that, by which edem/cell_faces.cpp tells flat from
+/// bent.
+inline constexpr double kSharpness = 5e-5;
+
+/// No place is farther from where it was before it became float, with coordinates up to `farthest` [m]. Each
+/// is rounded by 2^-24 of itself at most, so a place moves by sqrt(3) 2^-24 of the farthest.
+inline double floatRounding(double farthest) {
+  return double(std::numeric_limits<float>::epsilon()) * farthest;
+}
+/// The largest coordinate of a box [m].
+inline double farthestOf(const Eigen::AlignedBox3d& bounds) {
+  return std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
+}
+/// True where floats hold a solid of these bounds, of elements with that mean spacing [m]: to kSharpness, or
+/// hardly worse than they would about its own middle. `slack` is a factor on both.
+inline bool isSharp(const Eigen::AlignedBox3d& bounds, double spacing, double slack) {
+  const double farthest = farthestOf(bounds);
+  return floatRounding(farthest) <= slack * kSharpness * spacing ||
+         farthest <= slack * bounds.diagonal().norm();
+}
 
 /// Lengths of the arrays, against one another and against what an index can name.
 void checkCounts(const Asset& asset);
