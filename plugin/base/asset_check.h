@@ -19,6 +19,8 @@
 
 namespace rubble::base {
 
+class CellWalk;
+
 /// Where an asset lies and how sharp its cell vertices are.
 struct AssetScale {
   Eigen::AlignedBox3d bounds;  ///< of the cell vertices, grown by `rounding` [m]
@@ -47,6 +49,9 @@ inline bool isSharp(const Eigen::AlignedBox3d& bounds, double spacing, double sl
          farthest <= slack * bounds.diagonal().norm();
 }
 
+/// Asset::validate on that many threads. What it says does not depend on their number.
+void checkAsset(const Asset& asset, int threads);
+
 /// Lengths of the arrays, against one another and against what an index can name.
 void checkCounts(const Asset& asset);
 /// Every index, range and order but those of corners, triangles and faces.
@@ -58,6 +63,8 @@ AssetScale checkNumbers(const Asset& asset);
 /// Corners, triangles and faces; places, volumes, gyrations and areas against the cell they belong to.
 /// Afterwards all indices can be followed.
 void checkCells(const Asset& asset, const AssetScale& scale);
+/// The same of cells [first, end), by a walk that stands before the first; without its end.
+void checkCells(const Asset& asset, CellWalk& walk, std::uint32_t first, std::uint32_t end);
 /// Faces between cells stand on both sides and once a side; springs join cells with a face between them.
 void checkNeighbours(const Asset& asset);
 /// No two elements in one place, or nearly so.

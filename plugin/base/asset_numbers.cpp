@@ -64,10 +64,9 @@ void checkElements(const Asset& asset, const AssetScale& scale) {
 
 void checkSharpness(const Asset& asset, const AssetScale& scale) {
   constexpr double kSlack = 1.5;  // the cook foretells spacing and bounds
-  const Eigen::AlignedBox3d bounds = asset.bounds();
-  if (!isSharp(bounds, asset.spacing(), kSlack))
+  if (!isSharp(scale.bounds, asset.spacing(), kSlack))
     refuseAsset(
-        "the vertices lie up to ", farthestOf(bounds),
+        "the vertices lie up to ", farthestOf(scale.bounds),
         " m from the frame's origin, where floats hold them to ", scale.rounding,
         " m; allowed: ", kSlack * kSharpness,
         " of the elements' spacing, or bounds about the origin: cook it again, which moves the frame");
