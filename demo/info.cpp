@@ -9,6 +9,7 @@
 #include "demo/console.h"
 #include "demo/dust_setup.h"
 #include "demo/input_error.h"
+#include "demo/keys.h"
 #include "demo/window/egl_context.h"
 #include "demo/world.h"
 
@@ -28,6 +29,7 @@ std::ostream& row(std::ostream& out, const std::string& name) {
 
 void describe(const Asset& asset, std::ostream& out) {
   row(out, "elements") << asset.elementCount() << ", radius " << asset.radius << " m\n";
+  row(out, "origin") << shown(asset.origin) << " m in the mesh's coordinates\n";
   row(out, "springs") << asset.springs.size() << " and " << asset.anchors.size() << " anchors\n";
   row(out, "volume") << asset.volume() << " m^3, spacing " << asset.spacing() << " m\n";
   row(out, "cell meshes") << asset.triangles.size() << " triangles\n";

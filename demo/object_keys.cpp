@@ -275,6 +275,9 @@ const Table<SceneObject>& objectKeys() {
               .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
           file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
               .only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); }),
+          vector<SceneObject>("mesh_origin", &SceneObject::meshOrigin, kMeshPlace, "m",
+                              "what in the mesh's own coordinates stands at `position`")
+              .only("meshes and assets", [](const SceneObject& o) { return !isShape(o); }),
           shape(),
           vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m",
                               "full edge lengths of the box, or of the box around the shape")
@@ -318,7 +321,7 @@ const Table<SceneObject>& objectKeys() {
                                         "what it is made of"),
           object<SceneObject, Model>("model", &SceneObject::model, modelKeys(), "reading of the paper"),
       },
-      "where its centre is at the start; of a mesh or an asset, its own origin"));
+      "where its centre is at the start; of a mesh or an asset, its `mesh_origin`"));
   return table;
 }
 

@@ -29,6 +29,8 @@ struct SceneObject : Placement {
   double scale = 1;                  ///< of one unit of the mesh [m]
   bool repair = false;               ///< the mesh, before it is cooked
   std::filesystem::path asset = {};  ///< empty: none
+  /// The place in the mesh's coordinates, or in those of the asset's mesh, that stands at `position` [m].
+  Eigen::Vector3d meshOrigin = Eigen::Vector3d::Zero();
   enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue };
   Shape shape = Shape::Box;
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box, or the one around it [m]

@@ -12,6 +12,9 @@ namespace rubble::demo {
 /// Length units of meshes [m], from nanometres to a thousand kilometres.
 inline constexpr Limits kMeshScale = {1e-9, 1e6};
 
+/// Coordinates of meshes [m]: all that the cook takes.
+inline constexpr Limits kMeshPlace = {-1e9, 1e9};
+
 /// The surface in the file, `scale` metres a unit. Throws rubble::Error that starts with the file, also when
 /// its size is none that a solid may have.
 SurfaceMesh readSolid(const std::filesystem::path& file, double scale);

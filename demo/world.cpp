@@ -8,12 +8,14 @@
 #include "base/hash.h"
 #include "bullet/convert.h"
 #include "demo/input_error.h"
+#include "demo/keys.h"
 #include "demo/overlaps.h"
 #include "demo/primitives.h"
 #include "demo/scene_advice.h"
 #include "demo/solid.h"
 #include "demo/substeps.h"
 #include "demo/words.h"
+#include "rubble/limits.h"
 
 namespace rubble::demo {
 namespace {
@@ -29,6 +31,30 @@ btTransform placed(const Placement& at) {
     const double angle = degrees * std::numbers::pi / 180;
     transform.setRotation(btQuaternion(toBullet(at.rotationDegrees / degrees), btScalar(angle)));
   }
+  return transform;
+}
+
+// Where the asset's frame starts, seen from what stands at the object's position, in the object's axes [m].
+Eigen::Vector3d startOf(const SceneObject& object, const Asset& asset) {
+  return asset.origin - object.meshOrigin;
+}
+
+// Of the asset's frame. Throws where Bullet's floats would not hold it.
+btTransform placed(const SceneObject& object, const Asset& asset) {
+  btTransform transform = placed(object);
+  const Eigen::Vector3d start = startOf(object, asset);
+  if (start.isZero(0)) return transform;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (const double degrees = object.rotationDegrees.norm(); degrees > 0)
+    turn = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, object.rotationDegrees / degrees);
+  const Eigen::Vector3d place = object.position + turn * start;
+  if (place.cwiseAbs().maxCoeff() > limits::kPosition.high) {
+    const Eigen::Vector3d middle = (asset.origin + asset.bounds().center()).array().round();
+    throw Error("it would stand at " + shown(place) + " m, each must be " + limits::kPosition.text() +
+                ": beyond, the floats of the world hold no centimetres; mesh_origin = " + shown(middle) +
+                " puts its middle at its position");
+  }
+  transform.setOrigin(toBullet(place));
   return transform;
 }
 
@@ -157,13 +183,16 @@ World::World(const Scene& scene, const LogFunction& log)
 
 World::World(const Scene& scene, const Assets& assets, const LogFunction& log) : World(scene, log) {
   std::vector<Eigen::AlignedBox3d> bounds;
-  for (const auto& asset : assets) bounds.push_back(asset->bounds());
+  for (std::size_t i = 0; i < assets.size(); ++i)
+    bounds.push_back(assets[i]->bounds().translated(startOf(scene.objects[i], *assets[i])));
   adviseOnDust(scene, bounds, log);
   for (const SceneBody& body : scene.statics) m_statics.push_back(addBody(body));
   for (const SceneBody& body : scene.impactors) addImpactor(body);
   StartingBodies starting{.objects = {}, .impactors = m_impactors, .statics = m_statics, .world = *m_world};
   for (std::size_t i = 0; i < assets.size(); ++i)
-    starting.objects.push_back({assets[i], bullet::toEigen(placed(scene.objects[i]))});
+    refuseAt(scene, i, [&] {
+      starting.objects.push_back({assets[i], bullet::toEigen(placed(scene.objects[i], *assets[i]))});
+    });
   checkOverlaps(scene, starting, log);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     refuseAt(
@@ -183,10 +212,10 @@ World::~World() {
 void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> asset) {
   DestructibleBodyDef def;
   def.anchored = object.asset.empty() ? object.anchor.has_value() : !asset->anchors.empty();
+  def.transform = placed(object, *asset);
   def.asset = std::move(asset);
   def.material = object.material;
   def.model = object.model;
-  def.transform = placed(object);
   def.velocity = toBullet(object.velocity);
   def.spin = toBullet(object.spin);
   def.massDamping = object.massDamping;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "base/asset_check.h"
 
@@ -38,13 +39,12 @@ std::span<const CellFace> Asset::cellFaces(std::size_t element) const {
 }
 
 void Asset::validate() const {
-  base::checkCounts(*this);
-  base::checkIndices(*this);
-  base::checkLook(*this);
-  const base::AssetScale scale = base::checkNumbers(*this);
-  base::checkCells(*this, scale);
-  base::checkNeighbours(*this);
-  base::checkDistances(*this);
+  // Fewer elements take less than a few threads to wake; more threads wait for the memory.
+  constexpr std::size_t kElementsAThread = 10'000;
+  constexpr std::size_t kMostThreads = 4;
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  base::checkAsset(*this, int(std::clamp(elementCount() / kElementsAThread, std::size_t{1},
+                                         std::min(cores, kMostThreads))));
 }
 
 }  // namespace rubble

@@ -83,8 +83,9 @@ CellShape CellWalk::enter(std::uint32_t i) {
       const std::uint32_t corner = m_asset.triangles[cell.firstTriangle + t][c];
       p[c] = corner - first < known ? &places[corner - first]
                                     : &(others[c] = placeOfOther(corner, i, cell.firstTriangle + t));
-      box.extend(*p[c]);
     }
+    box.min() = box.min().cwiseMin(p[0]->cwiseMin(*p[1]).cwiseMin(*p[2]));
+    box.max() = box.max().cwiseMax(p[0]->cwiseMax(*p[1]).cwiseMax(*p[2]));
     const Eigen::Vector3d across = (*p[1] - *p[0]).cross(*p[2] - *p[0]);
     volume += p[0]->dot(across);
     (t < cell.outerTriangles ? outerArea : innerArea) += across.norm();
@@ -102,6 +103,11 @@ CellShape CellWalk::enter(std::uint32_t i) {
   const Eigen::Vector3d origin = m_asset.positions[i], margin = Eigen::Vector3d::Constant(e);
   shape.box = Eigen::AlignedBox3d(shape.box.min() + origin - margin, shape.box.max() + origin + margin);
   return shape;
+}
+
+void CellWalk::continueFrom(const CellWalk& next) {
+  for (std::size_t v = 0; v < m_isUsed.size(); ++v) m_isUsed[v] |= next.m_isUsed[v];
+  m_end = next.m_end;
 }
 
 void CellWalk::finish() {

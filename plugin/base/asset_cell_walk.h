@@ -23,12 +23,18 @@ void checkUnit(const Eigen::Vector3f& normal, const char* array, std::size_t at)
 
 class CellWalk {
  public:
-  /// Of an asset whose vertices and cells' ranges are right; `rounding` is that of AssetScale.
-  CellWalk(const Asset& asset, double rounding)
-      : m_asset(asset), m_rounding(rounding), m_isUsed(asset.vertices.size(), 0) {}
+  /// Of an asset whose vertices and cells' ranges are right; `rounding` is that of AssetScale. The first
+  /// cell's corners are looked for from `corner` on.
+  CellWalk(const Asset& asset, double rounding, std::uint32_t corner = 0)
+      : m_asset(asset), m_rounding(rounding), m_isUsed(asset.vertices.size(), 0), m_end(corner) {}
 
-  /// Checks corners and triangles of a cell and measures it. To be called for all cells, in their order.
+  /// Checks corners and triangles of a cell and measures it. To be called for cells in their order, one after
+  /// the other.
   CellShape enter(std::uint32_t cell);
+  /// Where the corners end that were looked at.
+  std::uint32_t cornersEnd() const { return m_end; }
+  /// Takes over what `next` has found, which began where this one has ended.
+  void continueFrom(const CellWalk& next);
   /// Behind the last cell: checks corners of no cell, and that no vertex is without a corner.
   void finish();
 

@@ -1,6 +1,7 @@
 // The layout of the asset file. Little-endian whatever the host.
 //
-//   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | 12 counts u64 | the arrays
+//   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | origin 3 f64 | 12 counts
+//   u64 | the arrays
 //
 // The arrays are those of visitAssetArrays, in that order. Each starts at a multiple of 8 bytes, with zeros
 // before it if need be, and holds its records as they stand in memory on little-endian machines: read in one
@@ -8,9 +9,9 @@
 // material, bytes of the materials' names (each ends with a zero) and elements with a static state, all or
 // none. The checksum covers everything behind it. The counts say how long the file must be.
 //
-// Versions 1 to 3, which are read and no longer written, have no gaps: not between arrays, nor in anchors.
-// Versions 1 and 2 have the first 8 counts; version 2 has a static state of every element. Their checksum has
-// one lane.
+// Versions 1 to 4 are read and no longer written. They have no origin: it is zero. Versions 1 to 3 have no
+// gaps: not between arrays, nor in anchors. Versions 1 and 2 have the first 8 counts; version 2 has a static
+// state of every element. Their checksum has one lane.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +26,8 @@
 namespace rubble::base {
 
 inline constexpr std::array<char, 8> kAssetMagic = {'R', 'U', 'B', 'B', 'L', 'E', 'A', 'S'};
-inline constexpr std::uint32_t kAssetVersion = 1;
-inline constexpr std::uint32_t kAssetVersionWithRest = 2;
-inline constexpr std::uint32_t kAssetVersionWithLook = 3;
-inline constexpr std::uint32_t kAssetVersionAligned = 4;
+inline constexpr std::uint32_t kAssetVersionWithRest = 2;  // of every element
+inline constexpr std::uint32_t kAssetVersion = 5;          // that is written
 
 enum AssetArray {
   kElements,
@@ -72,14 +71,26 @@ inline constexpr std::uint64_t kAssetRestKeyBytes = 8;
 inline constexpr std::size_t kAssetChecksumOffset = kAssetMagic.size() + 4 + 4;
 /// The checksum covers the file from here on.
 inline constexpr std::size_t kAssetBodyOffset = kAssetChecksumOffset + 8;
-/// Of an anchor in version 4: four zeros stand behind its element.
+/// Of an anchor since version 4: four zeros stand behind its element.
 inline constexpr std::uint64_t kAlignedAnchorBytes = 40;
-/// Where arrays may start in version 4 [bytes].
+/// Where arrays may start since version 4 [bytes].
 inline constexpr std::uint64_t kAssetAlignment = 8;
 
-/// Of versions 1 and 2, and of later ones.
-inline constexpr std::size_t kAssetHeaderBytes = kAssetBodyOffset + 8 + 8 * kShapeArrays;
-inline constexpr std::size_t kAssetLookHeaderBytes = kAssetBodyOffset + 8 + 8 * kAssetArrays;
+/// What the versions differ in.
+struct AssetLayout {
+  std::size_t counts;  ///< in the header
+  bool isAligned;
+  bool hasOrigin;
+
+  std::size_t countsOffset() const { return kAssetBodyOffset + 8 + (hasOrigin ? 3 * 8 : 0); }
+  std::size_t headerBytes() const { return countsOffset() + 8 * counts; }
+};
+/// By version, from 1 on.
+inline constexpr std::array<AssetLayout, kAssetVersion> kAssetLayouts = {{{kShapeArrays, false, false},
+                                                                          {kShapeArrays, false, false},
+                                                                          {kAssetArrays, false, false},
+                                                                          {kAssetArrays, true, false},
+                                                                          {kAssetArrays, true, true}}};
 
 /// The largest file that is written or read [bytes]: ten million elements, the most that the cook makes, take
 /// about 28 GB. It also keeps every count below what a 32-bit index can name.

@@ -40,15 +40,11 @@ T decoded(const std::uint8_t* bytes) {
 constexpr std::uint64_t kMostBytesOfNames = kMostMaterials * (kMostNameBytes + 1);
 
 struct Header {
-  std::size_t bytes = kAssetHeaderBytes;
+  AssetLayout layout;
   std::uint64_t checksum = 0;
   AssetCounts counts{};
 
-  bool isAligned = false;  // version 4
-
   bool hasRest() const { return counts[kRest] > 0; }
-  // How many of the counts stand in the file.
-  std::size_t countsInFile() const { return bytes == kAssetLookHeaderBytes ? kAssetArrays : kShapeArrays; }
 };
 
 // The file's body from its beginning on; adds up the checksum of what it has read. A visitor of
@@ -59,7 +55,7 @@ class BodyReader {
       : m_file(file),
         m_stream(stream),
         m_header(header),
-        m_checksum(header.isAligned ? FileChecksum::kLanes : 1) {
+        m_checksum(header.layout.isAligned ? FileChecksum::kLanes : 1) {
     m_stream.clear();
     m_stream.seekg(std::streamoff(kAssetBodyOffset));
   }
@@ -101,7 +97,7 @@ class BodyReader {
 
  private:
   void skipPadding(std::size_t bytesBefore) {
-    if (!m_header.isAligned) return;
+    if (!m_header.layout.isAligned) return;
     std::array<std::byte, kAssetAlignment> zeros{};
     read(std::span(zeros).first((kAssetAlignment - bytesBefore % kAssetAlignment) % kAssetAlignment));
     if (zeros != decltype(zeros){}) refuseFile(m_file, "is damaged: bytes between its arrays are not zero");
@@ -124,19 +120,18 @@ class BodyReader {
 // The file's first bytes, as many as the longest header has or the file.
 std::vector<std::uint8_t> readStart(const std::filesystem::path& file, std::ifstream& stream,
                                     std::uint64_t size) {
-  std::vector<std::uint8_t> bytes(std::size_t(std::min<std::uint64_t>(size, kAssetLookHeaderBytes)));
+  std::vector<std::uint8_t> bytes(
+      std::size_t(std::min<std::uint64_t>(size, kAssetLayouts.back().headerBytes())));
   errno = 0;
   stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
   if (!stream) refuseFile(file, "cannot be read" + reasonOf(errno));
   return bytes;
 }
 
-std::size_t headerBytesOf(const std::filesystem::path& file, std::uint32_t version) {
-  if (version == kAssetVersion || version == kAssetVersionWithRest) return kAssetHeaderBytes;
-  if (version == kAssetVersionWithLook || version == kAssetVersionAligned) return kAssetLookHeaderBytes;
-  refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions " +
-                       std::to_string(kAssetVersion) + " to " + std::to_string(kAssetVersionAligned) +
-                       ": cook it again");
+const AssetLayout& layoutOf(const std::filesystem::path& file, std::uint32_t version) {
+  if (version >= 1 && version <= kAssetVersion) return kAssetLayouts[version - 1];
+  refuseFile(file, "has asset version " + std::to_string(version) + "; this library reads versions 1 to " +
+                       std::to_string(kAssetVersion) + ": cook it again");
 }
 
 Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std::uint64_t size) {
@@ -149,20 +144,18 @@ Header readHeader(const std::filesystem::path& file, std::ifstream& stream, std:
       refuseFile(file, "is cut off, or not an asset: it has " + std::to_string(size) +
                            " bytes; an asset's header has " + std::to_string(count));
   };
-  requireBytes(kAssetHeaderBytes);
+  requireBytes(kAssetLayouts.front().headerBytes());
   const std::uint8_t* at = bytes.data() + kAssetMagic.size();
   const auto version = decoded<std::uint32_t>(at);
   const auto headerBytes = decoded<std::uint32_t>(at + 4);
-  Header header;
-  header.bytes = headerBytesOf(file, version);
-  header.isAligned = version == kAssetVersionAligned;
-  if (headerBytes != header.bytes)
+  Header header{.layout = layoutOf(file, version)};
+  if (headerBytes != header.layout.headerBytes())
     refuseFile(file, "is damaged: its header has " + std::to_string(headerBytes) +
-                         " bytes; allowed: " + std::to_string(header.bytes));
-  requireBytes(header.bytes);
+                         " bytes; allowed: " + std::to_string(header.layout.headerBytes()));
+  requireBytes(headerBytes);
   header.checksum = decoded<std::uint64_t>(bytes.data() + kAssetChecksumOffset);
-  for (std::size_t a = 0; a < header.countsInFile(); ++a)
-    header.counts[a] = decoded<std::uint64_t>(bytes.data() + kAssetBodyOffset + 8 + 8 * a);
+  for (std::size_t a = 0; a < header.layout.counts; ++a)
+    header.counts[a] = decoded<std::uint64_t>(bytes.data() + header.layout.countsOffset() + 8 * a);
   if (version == kAssetVersionWithRest) header.counts[kRest] = header.counts[kElements];
   return header;
 }
@@ -184,17 +177,17 @@ void checkLength(const std::filesystem::path& file, std::uint64_t size, const He
   if (size > kMostAssetBytes)
     refuseFile(file,
                "has " + std::to_string(size) + " bytes; allowed: up to " + std::to_string(kMostAssetBytes));
-  std::uint64_t left = size - header.bytes;
+  std::uint64_t left = size - header.layout.headerBytes();
   for (int a = 0; a < kRest; ++a) {
     const std::size_t i = std::size_t(a);
     // A product could overflow.
-    if (counts[i] > left || assetArrayBytes(AssetArray(a), counts[i], header.isAligned) > left) {
+    if (counts[i] > left || assetArrayBytes(AssetArray(a), counts[i], header.layout.isAligned) > left) {
       std::ostringstream text;
       text << "is cut off or damaged: " << counts[i] << ' ' << kAssetRecords[i].name
            << " do not fit into the file's " << size << " bytes";
       refuseFile(file, text.str());
     }
-    left -= assetArrayBytes(AssetArray(a), counts[i], header.isAligned);
+    left -= assetArrayBytes(AssetArray(a), counts[i], header.layout.isAligned);
   }
   checkCounts(file, counts);
   if (header.hasRest()) {
@@ -224,8 +217,10 @@ Asset readBody(const std::filesystem::path& file, std::ifstream& stream, const H
   std::string names;
   BodyReader body(file, stream, header);
   body.number(asset.radius);
+  if (header.layout.hasOrigin)
+    for (double& coordinate : asset.origin) body.number(coordinate);
   AssetCounts again = header.counts;
-  for (std::uint64_t& count : std::span(again).first(header.countsInFile())) body.number(count);
+  for (std::uint64_t& count : std::span(again).first(header.layout.counts)) body.number(count);
   visitAssetArrays(asset, names, body);
   if (again != header.counts || stream.peek() != std::ifstream::traits_type::eof())
     refuseFile(file, "is damaged: it changed while it was being read");

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/asset_check.h"
 
@@ -23,10 +22,7 @@ constexpr double kSumTolerance = 1e-6;  // for sums of up to ten million doubles
 
 AssetScale measureScale(const Asset& asset) {
   AssetScale scale{asset.bounds(), 0};
-  const double farthest =
-      std::max(scale.bounds.min().cwiseAbs().maxCoeff(), scale.bounds.max().cwiseAbs().maxCoeff());
-  // Each coordinate is rounded by 2^-24 of itself at most, so a place moves by sqrt(3) 2^-24 of the farthest.
-  scale.rounding = double(std::numeric_limits<float>::epsilon()) * farthest;
+  scale.rounding = floatRounding(farthestOf(scale.bounds));
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(scale.rounding);
   scale.bounds = Eigen::AlignedBox3d(scale.bounds.min() - margin, scale.bounds.max() + margin);
   return scale;
@@ -66,6 +62,16 @@ void checkElements(const Asset& asset, const AssetScale& scale) {
                 ", the volume of the elements to that of the bounds");
 }
 
+void checkSharpness(const Asset& asset, const AssetScale& scale) {
+  constexpr double kSlack = 1.5;  // the cook foretells spacing and bounds
+  if (!isSharp(scale.bounds, asset.spacing(), kSlack))
+    refuseAsset(
+        "the vertices lie up to ", farthestOf(scale.bounds),
+        " m from the frame's origin, where floats hold them to ", scale.rounding,
+        " m; allowed: ", kSlack * kSharpness,
+        " of the elements' spacing, or bounds about the origin: cook it again, which moves the frame");
+}
+
 void checkRest(const Asset& asset, const AssetScale& scale) {
   if (!asset.rest) return;
   const AssetRest& rest = *asset.rest;
@@ -84,11 +90,16 @@ void checkRest(const Asset& asset, const AssetScale& scale) {
 }  // namespace
 
 AssetScale checkNumbers(const Asset& asset) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(asset.origin[axis]) <= kLargestCoordinate))
+      refuseAsset("origin.", "xyz"[axis], " is ", asset.origin[axis], " m; allowed: -", kLargestCoordinate,
+                  " to ", kLargestCoordinate);
   for (std::size_t v = 0; v < asset.vertices.size(); ++v)
     checkPlace(asset.vertices[v].position, "vertices", v, ".position");
   const AssetScale scale = measureScale(asset);
   checkRadius(asset, scale);
   checkElements(asset, scale);
+  checkSharpness(asset, scale);
   for (std::size_t s = 0; s < asset.springs.size(); ++s)
     checkArea(asset.springs[s].area, "springs", s, kLeastArea);
   for (std::size_t a = 0; a < asset.anchors.size(); ++a) {

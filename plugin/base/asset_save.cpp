@@ -140,7 +140,7 @@ AssetCounts countsOf(const Asset& asset, std::size_t nameBytes, const std::files
                               asset.materials.size(),
                               nameBytes,
                               asset.rest ? asset.positions.size() : 0};
-  std::uint64_t bytes = kAssetLookHeaderBytes + (asset.rest ? kAssetRestKeyBytes : 0);
+  std::uint64_t bytes = kAssetLayouts.back().headerBytes() + (asset.rest ? kAssetRestKeyBytes : 0);
   for (int a = 0; a < kAssetArrays; ++a)
     bytes += assetArrayBytes(AssetArray(a), counts[std::size_t(a)], true);
   if (bytes > kMostAssetBytes)
@@ -159,11 +159,12 @@ void save(const Asset& asset, const std::filesystem::path& file) {
   PartialFile partial(file);
   Writer writer(partial);
   for (const char letter : kAssetMagic) writer.number(letter);
-  writer.number(kAssetVersionAligned);
-  writer.number(std::uint32_t(kAssetLookHeaderBytes));
+  writer.number(kAssetVersion);
+  writer.number(std::uint32_t(kAssetLayouts.back().headerBytes()));
   writer.number(std::uint64_t{0});  // the checksum's place
   writer.startBody();
   writer.number(asset.radius);
+  for (const double coordinate : asset.origin) writer.number(coordinate);
   for (const std::uint64_t count : counts) writer.number(count);
   visitAssetArrays(asset, names, writer);
   const std::uint64_t sum = writer.checksum();

@@ -79,16 +79,22 @@ void checkAnchor(const Asset& asset, const CellShape& shape, std::size_t a) {
 
 }  // namespace
 
-void checkCells(const Asset& asset, const AssetScale& scale) {
-  CellWalk walk(asset, scale.rounding);
-  std::size_t anchor = 0;
-  for (std::uint32_t i = 0; i < asset.elementCount(); ++i) {
+void checkCells(const Asset& asset, CellWalk& walk, std::uint32_t first, std::uint32_t end) {
+  const auto isBefore = [](const AssetAnchor& anchor, std::uint32_t cell) { return anchor.element < cell; };
+  auto anchor = std::size_t(std::lower_bound(asset.anchors.begin(), asset.anchors.end(), first, isBefore) -
+                            asset.anchors.begin());
+  for (std::uint32_t i = first; i < end; ++i) {
     const CellShape shape = walk.enter(i);
     checkElement(asset, shape, i);
     checkFaces(asset, shape, i);
     for (; anchor < asset.anchors.size() && asset.anchors[anchor].element == i; ++anchor)
       checkAnchor(asset, shape, anchor);
   }
+}
+
+void checkCells(const Asset& asset, const AssetScale& scale) {
+  CellWalk walk(asset, scale.rounding);
+  checkCells(asset, walk, 0, std::uint32_t(asset.elementCount()));
   walk.finish();
 }
 

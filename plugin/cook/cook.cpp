@@ -8,6 +8,7 @@
 #include "cook/cell_reach.h"
 #include "cook/checked_mesh.h"
 #include "cook/elements.h"
+#include "cook/frame.h"
 #include "cook/message.h"
 #include "cook/parts.h"
 #include "cook/polyhedron.h"
@@ -173,8 +174,10 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   };
   checkOptions(options);
   report(0, "checking the mesh");
-  const CheckedMesh solid = checkMesh(mesh);
+  CheckedMesh solid = checkMesh(mesh);
   checkLook(mesh);
+  const Eigen::Vector3d origin = frameOrigin(solid, options);
+  if (!origin.isZero(0)) solid = checkMesh(moved(mesh, origin));
 
   auto [elements, diagram] = packAndCut(solid, options, report, log);
   for (const auto& [level, text] : elements.notes)
@@ -183,6 +186,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
 
   report(kProgressMeshes, "building meshes");
   Asset asset;
+  asset.origin = origin;
   asset.radius = elements.radius;
   placeElements(solid, diagram, std::move(elements.centres), log, asset);
   const double spacing = asset.spacing();

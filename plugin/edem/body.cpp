@@ -16,11 +16,12 @@
 namespace rubble::edem {
 namespace {
 
-void requireWithin(const Eigen::Vector3d& v, const Limits& limits, const char* key, const char* unit) {
+void requireWithin(const Eigen::Vector3d& v, const Limits& limits, const char* key, const char* unit,
+                   const char* reason = "") {
   for (const double part : v)
     if (!limits.hold(part))
       throw Error(std::string("destructible body: ") + key + ": " + base::numberText(part) +
-                  " is not allowed, each part must be " + limits.text() + unit);
+                  " is not allowed, each part must be " + limits.text() + unit + reason);
 }
 
 void check(const BodyDef& def) {
@@ -33,7 +34,8 @@ void check(const BodyDef& def) {
                 " is not allowed, must be " + limits::kMassDamping.text() + " 1/s");
   if (!def.crushEnergy.empty() && def.crushEnergy.size() != def.asset->elementCount())
     throw Error("destructible body: crushEnergy: must have one value an element");
-  requireWithin(def.transform.translation(), limits::kPosition, "transform: origin", " m");
+  requireWithin(def.transform.translation(), limits::kPosition, "transform: origin", " m",
+                ": beyond, the floats of the world hold no centimetres");
   requireWithin(def.velocity, limits::kSpeed, "velocity", " m/s");
   requireWithin(def.spin, limits::kSpin, "spin", " rad/s");
   if (!def.transform.matrix().allFinite()) throw Error("destructible body: transform: must be finite");

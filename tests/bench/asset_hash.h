@@ -20,6 +20,7 @@ inline void addAsset(base::Fnv1a& hash, const Asset& asset) {
     }
   };
   hash.add(asset.radius);
+  if (!asset.origin.isZero(0)) hash.addAll(asset.origin);
   for (const std::size_t count :
        {asset.positions.size(), asset.springs.size(), asset.anchors.size(), asset.vertices.size(),
         asset.corners.size(), asset.triangles.size(), asset.faces.size(), asset.cells.size()})

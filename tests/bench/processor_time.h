@@ -12,6 +12,13 @@ inline double processorTime() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
+/// The same of all threads of the program together.
+inline double allProcessorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 /// Adds the time of a scope to a sum [s].
 class ScopeProcessorTime {
  public:

@@ -2,9 +2,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
+#include "demo/world.h"
 #include "rubble/asset.h"
 #include "scenes/program.h"
 
@@ -45,6 +48,16 @@ class CookProgram : public Program {
     std::string hash = "none in " + name;
     for (std::string line; std::getline(stats, line);) hash = nlohmann::json::parse(line)["hash"].dump();
     return hash;
+  }
+  // Of the elements of the scene's first object.
+  std::vector<Eigen::Vector3f> startingPlaces(const std::string& name) const {
+    const demo::Scene scene = demo::loadScene(m_folder.path() / name);
+    const demo::World world(scene, demo::cookObjects(scene));
+    std::vector<ElementPose> poses(world.destruction().bodies()[0]->asset()->elementCount());
+    world.destruction().bodies()[0]->poses(poses);
+    std::vector<Eigen::Vector3f> places;
+    for (const ElementPose& pose : poses) places.push_back(pose.position);
+    return places;
   }
   // Refused, and nothing but the files of the test is there.
   void expectRefused(const std::string& arguments, const std::string& words) {
@@ -257,6 +270,57 @@ TEST_F(CookProgram, ScenesTakeMeshesAndAssets) {
                  R"({"extends": "mesh.json", "objects": [{"asset": "box.rubble-asset"}]})");
   EXPECT_EQ(run("run below/asset.json --no-render").exitCode, 0);
   EXPECT_EQ(lastHash("out/mesh/stats.jsonl"), lastHash("out/asset/stats.jsonl"));
+}
+
+// The box at geo-coordinates, an easting and a northing, all of whose corners doubles hold.
+TEST_F(CookProgram, ScenesTakeSolidsAtGeoCoordinates) {
+  std::string far;
+  std::istringstream rows(kBox);
+  for (std::string row; std::getline(rows, row); far += '\n') {
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(row.c_str(), "v %lf %lf %lf", &x, &y, &z) != 3) {
+      far += row;
+    } else {
+      std::ostringstream vertex;
+      vertex.precision(12);
+      vertex << "v " << x + 500'000 << ' ' << y << ' ' << z + 6'000'000;
+      far += vertex.str();
+    }
+  }
+  m_folder.write("far.obj", far);
+  ASSERT_EQ(run("cook far.obj -o far.rubble-asset --elements 60 --anchor 0,-1,0").exitCode, 0);
+  // Its middle is 1, 0.5, 0.25 from that corner.
+  EXPECT_NE(run("info far.rubble-asset").out.find("[500001, 0.5, 6000000.5] m in the mesh's coordinates"),
+            std::string::npos)
+      << run("info far.rubble-asset").out;
+
+  m_folder.write("far.json", R"({"frames": 2, "objects": [{"asset": "far.rubble-asset"}]})");
+  expectError(
+      run("run far.json --no-render"), 2,
+      "far.json: objects.0: it would stand at [500001, 0.5, 6000000.5] m, each must be -100000 to "
+      "100000: beyond, the floats of the world hold no centimetres; mesh_origin = [500001, 1, 6000000] "
+      "puts its middle at its position");
+  const char* moved = " --set objects.0.mesh_origin=[500001,0.5,6000000.5]";
+  EXPECT_EQ(run(std::string("run far.json --no-render") + moved).exitCode, 0);
+  // The box cooked about the same place of it is the same object there, to the last bit.
+  m_folder.write("near.json",
+                 R"({"frames": 2, "objects": [{"mesh": "near.obj", "elements": 60, "anchor": [0, -1, 0]}]})");
+  m_folder.write(
+      "near.obj",
+      "v -1 -.5 -.5\nv 1 -.5 -.5\nv 1 .5 -.5\nv -1 .5 -.5\nv -1 -.5 0\nv 1 -.5 0\nv 1 .5 0\nv -1 .5 0\n"
+      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n");
+  EXPECT_EQ(run("run near.json --no-render").exitCode, 0);
+  EXPECT_EQ(lastHash("out/far/stats.jsonl"), lastHash("out/near/stats.jsonl"));
+
+  // Places of the mesh count from mesh_origin and turn with the object: 7 m along -z become 7 m along -x.
+  m_folder.write("turned.json", R"({"objects": [{"asset": "far.rubble-asset", "position": [3, 0, 0],
+      "rotation_degrees": [0, 90, 0], "mesh_origin": [500001, 0.5, 6000007.5]}]})");
+  m_folder.write("placed.json", R"({"objects": [{"asset": "far.rubble-asset", "position": [-4, 0, 0],
+      "rotation_degrees": [0, 90, 0], "mesh_origin": [500001, 0.5, 6000000.5]}]})");
+  const std::vector<Eigen::Vector3f> turned = startingPlaces("turned.json"),
+                                     placed = startingPlaces("placed.json");
+  ASSERT_EQ(turned.size(), 60u);
+  for (std::size_t i = 0; i < turned.size(); ++i) EXPECT_LT((turned[i] - placed[i]).norm(), 1e-6) << i;
 }
 
 TEST_F(CookProgram, ScenesRefuseMeshesAndAssetsByKey) {

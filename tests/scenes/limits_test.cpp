@@ -181,11 +181,11 @@ TEST_F(SceneLimits, EveryNumberOfASceneIsLookedAt) {
       // of named shapes (primitive_test.cpp)
       "objects.N.segments", "objects.N.shaft", "objects.N.plinth",
       // of Bullet's own bodies
-      "impactors.N.radius", "impactors.N.size", "impactors.N.mass", "impactors.N.position",
-      "impactors.N.velocity", "impactors.N.spin", "impactors.N.friction", "impactors.N.restitution",
-      "statics.N.size", "statics.N.offset", "statics.N.position", "statics.N.friction",
-      "statics.N.restitution", "objects.N.rotation_degrees", "impactors.N.rotation_degrees",
-      "statics.N.rotation_degrees", "gravity", "bullet_rate",
+      "objects.N.mesh_origin", "impactors.N.radius", "impactors.N.size", "impactors.N.mass",
+      "impactors.N.position", "impactors.N.velocity", "impactors.N.spin", "impactors.N.friction",
+      "impactors.N.restitution", "statics.N.size", "statics.N.offset", "statics.N.position",
+      "statics.N.friction", "statics.N.restitution", "objects.N.rotation_degrees",
+      "impactors.N.rotation_degrees", "statics.N.rotation_degrees", "gravity", "bullet_rate",
       // of the run and of the pictures (picture_test.cpp)
       "frames", "fps", "seed", "camera.eye", "camera.target", "camera.field_of_view_degrees", "light.ambient",
       "dust.min", "dust.max", "dust.opacity"};

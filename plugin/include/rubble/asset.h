@@ -1,5 +1,6 @@
 // What cooking a closed surface gives: elements, springs, anchors and cell meshes. Immutable and shared by
-// any number of bodies; the state of a body is elsewhere. Plain arrays, SI units, in the mesh's own frame.
+// any number of bodies; the state of a body is elsewhere. Plain arrays, SI units, in a frame along the mesh's
+// axes.
 #pragma once
 
 #include <Eigen/Core>
@@ -77,6 +78,11 @@ struct AssetRest {
 };
 
 struct Asset {
+  /// Where the asset's frame starts in the mesh's coordinates [m]; all other places are relative to it. Zero
+  /// unless the mesh lies so far from its own origin that floats would not hold its corners there (see cook).
+  /// An application that wants the solid where the mesh said moves DestructibleBodyDef::transform by it.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+
   // Elements: arrays of length n.
   double radius = 0;                       ///< r of every element [m]
   std::vector<Eigen::Vector3d> positions;  ///< centres at rest [m] (n x 3)
@@ -120,7 +126,8 @@ struct Asset {
   std::span<const CellFace> cellFaces(std::size_t element) const;
 
   /// Throws rubble::Error with one line, the field, its index, its value and what is allowed, when a count,
-  /// an index or a number is impossible: places beyond 1e9 m, solids over 1e6 m across, radii below 1e-6 m,
+  /// an index or a number is impossible: places beyond 1e9 m, or so far out that floats do not hold the
+  /// vertices (see cook), solids over 1e6 m across, radii below 1e-6 m,
   /// elements nearer than half a radius to one another, or volumes, gyrations, areas and places that
   /// contradict the cell's triangles, texture coordinates or materials that are none, or a static state that
   /// is not one an element, moves an element farther than the solid is large, or turns it by no rotation.
@@ -128,13 +135,13 @@ struct Asset {
   void validate() const;
 };
 
-/// Writes a versioned little-endian file, version 4, with sizes and a checksum. Its arrays start at multiples
+/// Writes a versioned little-endian file, version 5, with sizes and a checksum. Its arrays start at multiples
 /// of 8 bytes and are as in memory, so that it can be used where it is mapped (base/asset_format.h). The file
 /// appears whole or not at all, and nothing stays beside it.
 /// Throws rubble::Error naming the file and the reason: an asset that is not valid or would take more than 32
 /// GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file, or one of versions 1 to 3, and trusts nothing in it: header and length are checked
+/// Reads such a file, or one of versions 1 to 4, and trusts nothing in it: header and length are checked
 /// before the asset gets any memory, then the checksum, and the asset is validated. Throws rubble::Error
 /// naming the file and what is wrong with it.
 Asset load(const std::filesystem::path& file);

@@ -71,9 +71,12 @@ struct CookOptions {
 /// elements too, at about equal distances: no cell reaches farther from its element than 3 mean spacings
 /// (about 6 radii at the default fill), or a warning says how far. Where elements are thicker than a wall the
 /// radius chosen shrinks, to half at most for the sake of a few; a warning says which radius or how many
-/// elements would do for what protrudes after that. Throws rubble::Error for meshes that are not closed, not
-/// oriented, empty, not finite or that pass through themselves, and when the elements wanted do not fit. What
-/// `progress` throws ends the cook and reaches the caller.
+/// elements would do for what protrudes after that. Where the solid lies farther from the mesh's origin than
+/// it is large, and so far that floats would miss its corners by more than 5e-5 of the elements' spacing (a
+/// metre cut into 2048 elements beyond 33 m), it is moved to its own middle first: see Asset::origin. Throws
+/// rubble::Error for meshes that are not closed, not oriented, empty, not finite or that pass through
+/// themselves, and when the elements wanted do not fit. What `progress` throws ends the cook and reaches the
+/// caller.
 Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFunction& progress = {},
            const LogFunction& log = {});
 

@@ -19,12 +19,16 @@
 namespace rubble::test {
 
 inline constexpr std::size_t kVersionAt = 8;
+inline constexpr std::size_t kHeaderSizeAt = 12;
 inline constexpr std::size_t kChecksumAt = 16;
 inline constexpr std::size_t kBodyAt = 24;
 inline constexpr std::size_t kRadiusAt = 24;
-inline constexpr std::size_t kCountsAt = 32;
-inline constexpr std::size_t kHeaderBytes = 128;
-inline constexpr std::size_t kOldHeaderBytes = 96;  // of versions 1 and 2
+inline constexpr std::size_t kOriginAt = 32;
+inline constexpr std::size_t kCountsAt = 56;
+inline constexpr std::size_t kHeaderBytes = 152;
+inline constexpr std::size_t kOldCountsAt = 32;       // of versions 1 to 4, which have no origin
+inline constexpr std::size_t kOldHeaderBytes = 96;    // of versions 1 and 2
+inline constexpr std::size_t kLookHeaderBytes = 128;  // of versions 3 and 4
 
 /// Little-endian, as the hosts of these tests are.
 template <class T>
@@ -98,7 +102,8 @@ struct NumberPlace {
   NumberKind kind;
 };
 
-/// All numbers of the file's body but the counts, of a file without look and static state.
+/// All numbers of the file's body but the counts, of a file of versions 1, 2 or 5 without look and static
+/// state.
 inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
   using enum NumberKind;
   struct Table {
@@ -120,9 +125,13 @@ inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
   };
   std::vector<NumberPlace> places = {{"radius", kRadiusAt, Double}};
   const bool old = isOld(bytes);
+  if (!old)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      places.push_back({"origin number " + std::to_string(axis), kOriginAt + 8 * axis, Double});
+  const std::size_t countsAt = old ? kOldCountsAt : kCountsAt;
   std::size_t at = old ? kOldHeaderBytes : kHeaderBytes;
   for (const Table& table : tables) {
-    for (std::uint64_t k = 0; k < numberAt<std::uint64_t>(bytes, kCountsAt + 8 * table.count); ++k)
+    for (std::uint64_t k = 0; k < numberAt<std::uint64_t>(bytes, countsAt + 8 * table.count); ++k)
       for (std::size_t f = 0; f < table.record.size(); ++f) {
         if (table.record[f] != Gap)
           places.push_back(

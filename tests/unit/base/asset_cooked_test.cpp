@@ -1,6 +1,10 @@
-// What the cook makes is never refused: solids of all kinds, from a millimetre to a kilometre, far from the
-// origin.
+// What the cook makes is never refused, and has its corners where the mesh has them: solids of all kinds,
+// from a millimetre to a kilometre, far from the origin.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "unit/cook/shapes.h"
 
@@ -28,6 +32,18 @@ std::vector<Solid> solids() {
           {"two cubes", joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {3, 0, 0})), 40}};
 }
 
+// Of a corner of the mesh, from the nearest of the asset's [m].
+double farthestMiss(const SurfaceMesh& mesh, const Asset& asset) {
+  double farthest = 0;
+  for (const Eigen::Vector3d& corner : mesh.vertices) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CellVertex& vertex : asset.vertices)
+      nearest = std::min(nearest, (vertex.position.cast<double>() + asset.origin - corner).squaredNorm());
+    farthest = std::max(farthest, std::sqrt(nearest));
+  }
+  return farthest;
+}
+
 SurfaceMesh placed(SurfaceMesh mesh, double scale, const Eigen::Vector3d& at) {
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = scale * vertex + at;
   return mesh;
@@ -53,9 +69,17 @@ TEST(CookedAsset, IsValidAtEveryScaleAndPlace) {
           SCOPED_TRACE(std::string(solid.name) + " x " + std::to_string(scale) + " at " +
                        std::to_string(away));
           try {
-            const Asset asset =
-                cook(placed(solid.mesh, scale, away * Eigen::Vector3d(1, -0.3, 0.2)), options);
+            const SurfaceMesh mesh = placed(solid.mesh, scale, away * Eigen::Vector3d(1, -0.3, 0.2));
+            const Asset asset = cook(mesh, options);
             EXPECT_EQ(asset.elementCount(), solid.elements);
+            // Floats' rounding of a coordinate is 2^-24 of it. Allowed is 5e-5 of the spacing, or that of a
+            // solid about its own middle; beside the doubles of the mesh.
+            const double rounding = std::ldexp(asset.diagonal(), -23) + std::ldexp(away, -51);
+            EXPECT_LE(farthestMiss(mesh, asset), std::max(5e-5 * asset.spacing(), rounding));
+            // At 10 km floats hold most solids of a kilometre.
+            if (scale < 1e3 || away != 1e4) {
+              EXPECT_EQ(asset.origin.isZero(0), away == 0);
+            }
           } catch (const Error& error) {
             ADD_FAILURE() << error.what();
           }

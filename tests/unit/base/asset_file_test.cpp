@@ -54,6 +54,7 @@ class AssetFile : public testing::Test {
 TEST_F(AssetFile, ComesBackAsItWas) {
   const Asset read = load(m_file);
   EXPECT_EQ(read.radius, m_asset.radius);
+  EXPECT_EQ(read.origin, m_asset.origin);
   EXPECT_EQ(read.positions, m_asset.positions);
   EXPECT_EQ(read.volumes, m_asset.volumes);
   EXPECT_EQ(read.gyrations, m_asset.gyrations);
@@ -112,7 +113,7 @@ TEST_F(AssetFile, IsRefusedWithAnyBitFlipped) {
 TEST_F(AssetFile, OfAnotherVersionIsRefusedByName) {
   std::string bytes = m_bytes;
   bytes[kVersionAt] = 77;
-  expectRefused(bytes, "has asset version 77; this library reads versions 1 to 4");
+  expectRefused(bytes, "has asset version 77; this library reads versions 1 to 5");
 }
 
 TEST_F(AssetFile, OfAnotherKindIsRefusedByName) {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "base/asset_check.h"
 #include "unit/base/asset_old_bytes.h"
 #include "unit/cook/shapes.h"
 
@@ -154,6 +155,55 @@ TEST_F(HostileAsset, CornersInAnyOrderAreChecked) {
     } catch (const Error& error) {
       expectHas(error.what(), fault.words);
     }
+  }
+}
+
+// Threads check cells by ranges, and whoever finds something there has it told by one thread: of two faults
+// the first, whatever part it is in.
+TEST_F(HostileAsset, AnyNumberOfThreadsSaysTheSame) {
+  const auto verdict = [](const Asset& asset, int threads) -> std::string {
+    try {
+      base::checkAsset(asset, threads);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "valid";
+  };
+  // A corner that no triangle uses, among those of another cell.
+  const auto insertCorner = [](Asset& a, const CellCorner& corner) {
+    const std::uint32_t at = std::uint32_t(a.corners.size()) / 2;
+    a.corners.insert(a.corners.begin() + at, corner);
+    for (auto& triangle : a.triangles)
+      for (std::uint32_t& c : triangle) c += c >= at ? 1 : 0;
+  };
+  struct Change {
+    const char* words;
+    std::function<void(Asset&)> make;
+  };
+  const std::vector<Change> changes = {
+      {"valid", [](Asset&) {}},
+      {"valid", [&](Asset& a) { insertCorner(a, a.corners[0]); }},
+      {"corners[",
+       [&](Asset& a) {
+         insertCorner(a, {kNoElement, 0, Eigen::Vector3f::UnitX()});
+       }},
+      {"volumes[2] is", [](Asset& a) { a.volumes[2] *= 0.99, a.volumes[9] *= 0.99; }},
+      {"volumes[9] is", [](Asset& a) { a.volumes[9] *= 0.99, a.positions[1] = a.positions[0]; }},
+      {"anchors[", [](Asset& a) { a.anchors.back().area = 7; }},
+      {"is in no corner", [](Asset& a) { a.vertices.push_back(a.vertices[0]); }},
+      {".vertex is 4294967294",
+       [](Asset& a) {
+         a.corners.push_back({kNoElement - 1, 0, Eigen::Vector3f::UnitX()});
+       }},
+      {"springs[0].area is", [](Asset& a) { a.springs[0].area *= 2; }},
+      {"m from positions[0]",
+       [](Asset& a) { a.positions[1] = a.positions[0] + Eigen::Vector3d(1e-3, 0, 0); }}};
+  for (const Change& change : changes) {
+    Asset asset = m_asset;
+    change.make(asset);
+    const std::string one = verdict(asset, 1);
+    expectHas(one, change.words);
+    for (const int threads : {2, 3, 5, 12, 40}) EXPECT_EQ(verdict(asset, threads), one) << threads;
   }
 }
 

@@ -1,4 +1,4 @@
-// Files of versions 1 to 3 as earlier libraries wrote them, written down a second time on purpose.
+// Files of versions 1 to 4 as earlier libraries wrote them, written down a second time on purpose.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ inline std::string oldBytesOf(const Asset& asset) {
     (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
   };
   const auto putCounts = [&put](const auto&... counts) { (put(std::uint64_t(counts)), ...); };
-  put(version, std::uint32_t(hasLook ? kHeaderBytes : kOldHeaderBytes), std::uint64_t{0}, asset.radius);
+  put(version, std::uint32_t(hasLook ? kLookHeaderBytes : kOldHeaderBytes), std::uint64_t{0}, asset.radius);
   putCounts(asset.positions.size(), asset.springs.size(), asset.anchors.size(), asset.vertices.size(),
             asset.corners.size(), asset.triangles.size(), asset.faces.size(), asset.cells.size());
   if (hasLook)
@@ -46,6 +46,15 @@ inline std::string oldBytesOf(const Asset& asset) {
     for (const Eigen::Vector3d& d : asset.rest->displacements) put(d.x(), d.y(), d.z());
     for (const auto& q : asset.rest->rotations) put(q.x(), q.y(), q.z(), q.w());
   }
+  seal(bytes);
+  return bytes;
+}
+
+/// A file of version 5 as version 4 had it: without the origin.
+inline std::string bytesWithoutOrigin(std::string bytes) {
+  setNumber(bytes, kVersionAt, std::uint32_t(4));
+  setNumber(bytes, kHeaderSizeAt, std::uint32_t(kLookHeaderBytes));
+  bytes.erase(kOriginAt, kCountsAt - kOriginAt);
   seal(bytes);
   return bytes;
 }

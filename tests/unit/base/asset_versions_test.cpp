@@ -42,9 +42,9 @@ class AssetVersions : public testing::Test {
     asset.rest->rotations.assign(asset.elementCount(), Eigen::Quaterniond(0.8, 0, 0.6, 0));
   }
   void expectRead(const Asset& asset, std::uint32_t version) {
-    const std::string old = oldBytesOf(asset);
-    ASSERT_EQ(numberAt<std::uint32_t>(old, kVersionAt), version);
     save(asset, m_file);
+    const std::string old = version == 4 ? bytesWithoutOrigin(fileBytes(m_file)) : oldBytesOf(asset);
+    ASSERT_EQ(numberAt<std::uint32_t>(old, kVersionAt), version);
     const std::string present = fileBytes(m_file);
     writeBytes(m_file, old);
     save(load(m_file), m_file);
@@ -66,6 +66,7 @@ TEST_F(AssetVersions, EarlierOnesHoldWhatTheyDid) {
   expectRead(m_asset, 1);
   const Asset whole = wholeAsset();
   expectRead(whole, 3);
+  expectRead(whole, 4);
   addRest(m_asset);
   expectRead(m_asset, 2);
 }
@@ -79,6 +80,8 @@ TEST_F(AssetVersions, OneDoesNotPassForAnother) {
   bytes = oldBytesOf(whole);
   setNumber(bytes, kVersionAt, std::uint32_t(4));
   expectHas(refusalOf(m_file, bytes), "is cut off or damaged: ");
+  setNumber(bytes, kVersionAt, std::uint32_t(5));
+  expectHas(refusalOf(m_file, bytes), "is damaged: its header has 128 bytes; allowed: 152");
 }
 
 // Whoever maps the file finds the arrays as they are in memory, at addresses that suit their numbers.
@@ -86,7 +89,7 @@ TEST_F(AssetVersions, ArraysCanBeUsedWhereTheyAre) {
   const Asset asset = wholeAsset();
   save(asset, m_file);
   const std::string bytes = fileBytes(m_file);
-  EXPECT_EQ(numberAt<std::uint32_t>(bytes, kVersionAt), 4u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, kVersionAt), 5u);
   std::size_t at = kHeaderBytes;
   const auto expectArray = [&](const auto& records) {
     const std::size_t size = records.size() * sizeof(records[0]);
@@ -109,6 +112,40 @@ TEST_F(AssetVersions, ArraysCanBeUsedWhereTheyAre) {
   at += 8;
   expectArray(asset.rest->displacements), expectArray(asset.rest->rotations);
   EXPECT_EQ(at, bytes.size());
+}
+
+TEST_F(AssetVersions, OriginIsKept) {
+  m_asset.origin = Eigen::Vector3d(500'000.25, -0.0, 1e9);
+  save(m_asset, m_file);
+  EXPECT_EQ(load(m_file).origin, m_asset.origin);
+  EXPECT_EQ(numberAt<double>(fileBytes(m_file), kOriginAt + 16), 1e9);
+  m_asset.origin.y() = -1.1e9;
+  try {
+    m_asset.validate();
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    expectHas(error.what(), "origin.y is -1.1e+09 m; allowed: -1e+09 to 1e+09");
+  }
+}
+
+// What version 4 held of a cube at geo-coordinates: corners on planes half a metre apart. A cube of 1 m about
+// (5e5, 0, 6e6) m of 8 elements is whole there, for its corners are multiples of half a metre.
+TEST_F(AssetVersions, PlacesThatFloatsDoNotHoldAreRefused) {
+  const Asset far = gridAsset({{2, 2, 2}, 0.5, Eigen::Vector3d(499'999.5, -0.5, 5'999'999.5)});
+  const std::string refused =
+      "the vertices lie up to 6e+06 m from the frame's origin, where floats hold them to";
+  try {
+    far.validate();
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    expectHas(error.what(), refused);
+  }
+  writeBytes(m_file, oldBytesOf(far));
+  expectHas(refusal(m_file), refused);
+  expectHas(refusal(m_file), "cook it again");
+  // The same about its own middle; and one as far out as it is large.
+  EXPECT_NO_THROW(gridAsset({{2, 2, 2}, 0.5, Eigen::Vector3d(-0.5, -0.5, -0.5)}).validate());
+  EXPECT_NO_THROW(gridAsset({{2, 2, 2}, 500, Eigen::Vector3d(1000, 0, 0)}).validate());
 }
 
 TEST_F(AssetVersions, GapsHoldNothing) {
