@@ -47,12 +47,13 @@ struct DestructibleBodyDef {
   std::shared_ptr<const Asset> asset;
   Material material;
   Model model;
-  /// Of the asset's frame, which starts at Asset::origin in the coordinates of the mesh: with that as its origin
-  /// the solid stands where the mesh said. Places beyond limits::kPosition are refused, for the floats of the
-  /// world hold no centimetres there: solids at geo-coordinates need a world whose origin is near them.
+  /// Of the asset's frame, which starts at Asset::origin in the coordinates of the mesh: with that as its
+  /// origin the solid stands where the mesh said. Places beyond limits::kPosition are refused, for the floats
+  /// of the world hold no centimetres there: solids at geo-coordinates need a world whose origin is near
+  /// them.
   btTransform transform = btTransform::getIdentity();
-  btVector3 velocity = btVector3(0, 0, 0);             ///< of the centre of mass [m/s]
-  btVector3 spin = btVector3(0, 0, 0);                 ///< [rad/s]
+  btVector3 velocity = btVector3(0, 0, 0);  ///< of the centre of mass [m/s]
+  btVector3 spin = btVector3(0, 0, 0);      ///< [rad/s]
   double massDamping = 0;  ///< decay rate of the deformation velocity [1/s]; the rigid motion is not damped
   /// Springs to the world at the asset's anchors are made, and the body is pre-stressed under the world's
   /// gravity, so that it stands still from the first step. Where that fails, a warning is logged and the body

@@ -49,8 +49,8 @@ TEST(TriangleTree, TriesATriangleOnceOrLittleMore) {
   const cooking::TriangleTree tree(mesh);
   std::mt19937_64 generator(3);
   const auto uniform = [&generator] { return double(generator() >> 11) * 0x1p-53; };
-  constexpr int kPlaces = 2000;
-  for (int k = 0; k < kPlaces; ++k) {
+  constexpr int kTried = 2000;
+  for (int k = 0; k < kTried; ++k) {
     const Eigen::Vector3d place(2 * uniform() - 1, 2 * uniform() - 1, 2 * uniform() - 1);
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& [a, b, c] : mesh.triangles)
@@ -60,7 +60,7 @@ TEST(TriangleTree, TriesATriangleOnceOrLittleMore) {
               .squaredNorm());
     EXPECT_EQ(tree.closest(place).squaredDistance, nearest);
   }
-  EXPECT_LT(tree.trianglesTried(), 24u * kPlaces);
+  EXPECT_LT(tree.trianglesTried(), 24u * kTried);
 }
 
 TEST(CookWork, NeedlesCook) {
