@@ -30,7 +30,7 @@ bool isSceneOf(const KeptSettings& kept, const Scene& scene) {
 std::string makingCommand(const Scene& scene) {
   for (const ReportCase& c : reportCases())
     if (c.reference && c.reference->scene == scene.name)
-      return "made by: rubble report " + c.name + " --keep";
+      return "they are made by: rubble report " + c.name + " --keep";
   return "none can be made, for no case of rubble report is of it (" + referenceCaseNames() + ")";
 }
 
@@ -38,8 +38,8 @@ KeptSettings keptOf(const Scene& scene) {
   for (KeptSettings& kept : allKeptSettings())
     if (isSceneOf(kept, scene)) return std::move(kept);
   throw InputError("--error", scene.name,
-                   "is a scene without kept errors of its settings, must be one of those with: " +
-                       keptSceneNames() + "; " + makingCommand(scene));
+                   "has no kept errors of its settings; scenes that have: " + keptSceneNames() + "; " +
+                       makingCommand(scene));
 }
 
 // What is chosen cannot be given too.

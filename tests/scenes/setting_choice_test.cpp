@@ -125,10 +125,9 @@ TEST_F(Within, ASceneWithoutFiguresIsRefusedWithThoseThatHaveSome) {
   std::string heavier = kSmallWall;
   heavier.replace(heavier.find("\"mass\": 20"), 10, "\"mass\": 21");
   m_folder.write("heavy.json", heavier);
-  expectError(
-      runHere("heavy.json --error 5%"), 2,
-      "--error: heavy: is a scene without kept errors of its settings, must be one of those with: small; "
-      "none can be made");
+  expectError(runHere("heavy.json --error 5%"), 2,
+              "--error: heavy: has no kept errors of its settings; scenes that have: small; "
+              "none can be made");
   m_folder.write("data/scenes/wall.json", heavier);
   expectError(runHere("wall --error 5%"), 2, "made by: rubble report wall_blow --keep");
   EXPECT_FALSE(exists("out"));
