@@ -9,6 +9,7 @@
 #include "demo/csv_table.h"
 #include "demo/error_plot.h"
 #include "demo/input_error.h"
+#include "demo/kept_settings.h"
 #include "demo/machine.h"
 #include "demo/marked_text.h"
 #include "demo/output_file.h"
@@ -115,6 +116,18 @@ void makeReferences(const std::vector<const ReportCase*>& cases, std::ostream& o
   }
 }
 
+// Of the cases that have a reference.
+void keepSettings(const std::vector<const ReportCase*>& cases, std::ostream& out) {
+  Progress progress("settings");
+  for (const ReportCase* c : cases) {
+    if (!c->reference) continue;
+    const std::filesystem::path file = settingsFile(*c->reference);
+    const SceneReference reference = readReference(*c->reference, referenceFile(*c->reference));
+    writeSettings(*c, reference, file, [&](double share) { progress.show(share, c->name); });
+    out << "settings: " << file.string() << '\n';
+  }
+}
+
 }  // namespace
 
 TextRows caseCsv(const ReportCase& c, std::span<const CaseRow> rows) {
@@ -176,6 +189,7 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
 void caseReport(const CaseReportOptions& options, std::ostream& out) {
   const std::vector<const ReportCase*> cases = casesOf(options);
   if (options.reference) return makeReferences(cases, out);
+  if (options.keep) return keepSettings(cases, out);
   for (const ReportCase* c : cases)
     if (c->reference) readReference(*c->reference, referenceFile(*c->reference));
   const std::filesystem::path folder = options.folder.empty() ? "out/report" : options.folder;

@@ -18,6 +18,7 @@ struct CaseReportOptions {
   bool all = false;                ///< every case, whatever `cases` holds
   bool quick = false;              ///< the quick runs only
   bool reference = false;          ///< no runs: makes the references of the cases anew
+  bool keep = false;               ///< keeps the settings of those cases that have a reference, and no more
   std::filesystem::path folder;    ///< of CSV and SVG; empty: out/report
   std::filesystem::path write;     ///< a Markdown file that holds this report's markers; empty: none
 };
@@ -46,7 +47,8 @@ std::string caseReportHash(const CaseReportOptions& options,
 /// Runs the cases and writes CASE.csv and CASE.svg of each; prints a Markdown table of all and writes it, if
 /// asked, between the markers of a Markdown file. Throws InputError before the first run when a name or a
 /// file is wrong or a reference is of another solver, MachineError. With `reference`: makes the references of
-/// those cases that have one, and nothing else.
+/// those cases that have one, and nothing else. With `keep`: measures their settings, see kept_settings.h,
+/// and nothing else.
 void caseReport(const CaseReportOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

@@ -9,6 +9,7 @@
 
 #include "demo/info.h"
 #include "demo/input_error.h"
+#include "demo/setting_choice.h"
 
 namespace rubble::demo {
 namespace {
@@ -26,7 +27,7 @@ constexpr const char* kExitCodes =
 struct Raw {
   std::string size = "1280x720";
   std::vector<std::string> sets, sweeps, reported;
-  std::optional<std::string> frames, seed, anchor;
+  std::optional<std::string> frames, seed, anchor, error;
   std::optional<int> cases;
   bool noRender = false;
 };
@@ -140,6 +141,10 @@ void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
   report->add_flag("--reference", line.caseReport.reference,
                    "of cases (" + referenceCaseNames() +
                        "): makes what they are compared with anew, in minutes, and runs nothing else");
+  report->add_flag("--keep", line.caseReport.keep,
+                   "of cases (" + referenceCaseNames() +
+                       "): measures each setting and keeps errors and times beside the reference for rubble "
+                       "run --error, in some ten minutes, and runs nothing else");
   addSceneOptions(*report, line, raw, false);
   addPath(*report, "--out", line.report.folder, "folder of the results, default out/report");
   report
@@ -161,6 +166,14 @@ void addCommands(CLI::App& app, CommandLine& line, Raw& raw) {
   addPath(*run, "--events", line.run.events, "one JSON object an event");
   run->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures, default 1280x720");
   run->add_flag("--no-render", raw.noRender, "no pictures and no OpenGL");
+  run->add_option(
+      "--error", raw.error,
+      "2% or 0.02: takes the cheapest setting (substep, precision, Bullet's ticks, regime) whose kept error "
+      "is no more; of scenes that have kept ones (" +
+          keptSceneNames() +
+          "). It is the worst of three runs, each the root mean square of the relative differences of exit "
+          "speed, broken springs, crushed mass and dust from the reference; it counts as no less than the "
+          "scatter of the reference's own runs");
 
   CLI::App* view = app.add_subcommand("view", "simulate a scene in a window");
   addSceneOptions(*view, line, raw);
@@ -191,6 +204,11 @@ bool isSceneName(const std::string& word) {
   return (", " + sceneNames() + ",").find(", " + word + ",") != std::string::npos;
 }
 
+// Of the options that write beside the references the one that is given; null: none.
+const char* keepingOption(const CaseReportOptions& options) {
+  return options.reference ? "--reference" : options.keep ? "--keep" : nullptr;
+}
+
 void refuseSceneOptions(const Raw& raw, const std::string& reported) {
   if (!raw.sets.empty() || !raw.sweeps.empty() || raw.frames || raw.seed)
     throw InputError("report", reported, "is no scene that --set, --sweep, --frames or --seed could change");
@@ -198,12 +216,15 @@ void refuseSceneOptions(const Raw& raw, const std::string& reported) {
 
 // References are made of cases that have one, all settings or none.
 void checkReference(const CommandLine& line) {
-  if (!line.caseReport.reference) return;
+  if (line.caseReport.reference && line.caseReport.keep)
+    throw InputError("--keep", "", "needs a reference that is made, must be left out with --reference");
+  const char* const kept = keepingOption(line.caseReport);
+  if (!kept) return;
   for (const std::string& name : line.caseReport.cases)
     if (!findReportCase(name)->reference)
-      throw InputError("--reference", name, "has a closed form, must be one of: " + referenceCaseNames());
-  const auto refuse = [](const char* option) {
-    throw InputError(option, "", "means a report, must be left out with --reference");
+      throw InputError(kept, name, "has a closed form, must be one of: " + referenceCaseNames());
+  const auto refuse = [&](const char* option) {
+    throw InputError(option, "", std::string("means a report, must be left out with ") + kept);
   };
   if (line.caseReport.quick) refuse("--quick");
   if (!line.report.folder.empty()) refuse("--out");
@@ -211,8 +232,8 @@ void checkReference(const CommandLine& line) {
 }
 
 void sortStability(CommandLine& line, const Raw& raw) {
-  if (line.caseReport.reference)
-    throw InputError("--reference", kStabilityReportName, "has no reference, must be left out");
+  if (const char* kept = keepingOption(line.caseReport))
+    throw InputError(kept, kStabilityReportName, "has no reference, must be left out");
   if (line.caseReport.quick && raw.cases)
     throw InputError("--quick", std::to_string(kQuickStabilityCases),
                      "is another number than that of --cases, one must be left out");
@@ -239,7 +260,8 @@ void sortReport(CommandLine& line, const Raw& raw) {
   const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
   if (isAsked(kMaterialReportName)) {
     if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
-    if (cases.reference) throw InputError("--reference", kMaterialReportName, "is no case, must be left out");
+    if (const char* kept = keepingOption(cases))
+      throw InputError(kept, kMaterialReportName, "is no case, must be left out");
     refuseSceneOptions(raw, kMaterialReportName);
     line.command = CommandLine::Command::MaterialReport;
     line.materialReport = {line.report.folder, line.report.write};
@@ -254,7 +276,8 @@ void sortReport(CommandLine& line, const Raw& raw) {
                            ", " + kMaterialReportName + ", " + kStabilityReportName +
                            ", or the path of a JSON file");
     if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
-    if (cases.reference) throw InputError("--reference", line.scene, "is a scene, must be left out");
+    if (const char* kept = keepingOption(cases))
+      throw InputError(kept, line.scene, "is a scene, must be left out");
     return;
   }
   if (stranger != raw.reported.end())
@@ -319,6 +342,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
   line.report.scene = line.scene;
   if (raw.frames) line.overrides.push_back({"frames", *raw.frames, "--frames"});
   if (raw.seed) line.overrides.push_back({"seed", *raw.seed, "--seed"});
+  if (raw.error) line.error = parseErrorShare(*raw.error);
   checkAsset(line);
   line.report.overrides = line.overrides;
   line.run.render = !raw.noRender;

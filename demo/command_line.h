@@ -1,6 +1,7 @@
 // The arguments of the program.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct CommandLine {
   Command command = Command::Run;
   std::string scene;  ///< empty for BenchPaper, Cook and reports of no scene
   std::vector<Override> overrides;
+  std::optional<double> error;  ///< Run: no more than that, at the cheapest setting
   RunOptions run;
   ViewOptions view;
   ReportOptions report;

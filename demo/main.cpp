@@ -6,10 +6,12 @@
 #include <stdexcept>
 
 #include "demo/command_line.h"
+#include "demo/console.h"
 #include "demo/cook.h"
 #include "demo/info.h"
 #include "demo/input_error.h"
 #include "demo/report.h"
+#include "demo/setting_choice.h"
 #include "rubble/machine_error.h"
 
 namespace {
@@ -29,7 +31,7 @@ void execute(const CommandLine& line) {
   if (line.command == CommandLine::Command::BenchPaper) return benchPaper(line.benchPaper, std::cout);
   if (line.command == CommandLine::Command::Info && isAssetFile(line.scene))
     return describeAsset(line.scene, std::cout);
-  const Scene scene = loadScene(line.scene, line.overrides);
+  Scene scene = loadScene(line.scene, line.overrides);
   switch (line.command) {
     case CommandLine::Command::BenchPaper:  // these have no scene
     case CommandLine::Command::CaseReport:
@@ -38,6 +40,7 @@ void execute(const CommandLine& line) {
     case CommandLine::Command::StabilityReport:
       break;
     case CommandLine::Command::Run:
+      if (line.error) scene = sceneWithin(*line.error, line.scene, line.overrides, consoleLog(), std::cout);
       runScene(scene, line.run, std::cout);
       break;
     case CommandLine::Command::View:

@@ -35,7 +35,8 @@ struct CaseRun {
   bool standard = false;  ///< what a body gets that sets nothing
   bool quick = false;     ///< in `--quick` too
   std::function<CaseOutcome()> run;
-  double seconds = 1;  ///< about how long it takes, for the time left
+  double seconds = 1;                  ///< about how long it takes, for the time left
+  std::vector<Override> changes = {};  ///< that the setting makes to the case's scene, where it has one
 };
 
 struct ReportCase {

@@ -18,9 +18,6 @@ namespace {
 using Document = nlohmann::ordered_json;
 
 constexpr double kSubstepPart = 1.0 / 8;  // of the scene's own
-// Of the blow along x [m]: far below what one could see, and above the 6e-8 that Bullet's floats tell apart
-// at a metre.
-constexpr double kShifts[] = {0, 1e-6, -1e-6, 2e-6, -2e-6};
 
 // The first impactor is moved, or the last object where there is none.
 Override shifted(const Scene& scene, double shift) {
@@ -34,10 +31,8 @@ Override shifted(const Scene& scene, double shift) {
 // `shift` of 0 leaves the scene as it is.
 Scene referenceScene(const ReferenceDef& def, double shift = 0) {
   const Scene own = comparedScene(def, {});
-  std::vector<Override> changes = {{"precision", "double"},
-                                   {"substep_safety", shown(own.substepSafety * kSubstepPart)}};
-  if (shift != 0) changes.push_back(shifted(own, shift));
-  return comparedScene(def, changes);
+  return comparedScene(
+      def, {{"precision", "double"}, {"substep_safety", shown(own.substepSafety * kSubstepPart)}}, shift);
 }
 
 std::string sceneHash(const ReferenceDef& def) {
@@ -82,7 +77,7 @@ Document documentOf(const ReferenceDef& def, std::span<const std::vector<SceneQu
                          {"seed", scene.seed},
                          {"frames", scene.frames},
                          {"fps", scene.fps}}},
-                       {"blow_shifted_m", kShifts},
+                       {"blow_shifted_m", kBlowShifts},
                        {"quantities", Document::array()}};
   for (std::size_t q = 0; q < runs.front().size(); ++q) {
     Document values = Document::array();
@@ -94,7 +89,7 @@ Document documentOf(const ReferenceDef& def, std::span<const std::vector<SceneQu
 }
 
 std::vector<std::vector<SceneQuantity>> runsIn(const Document& document) {
-  std::vector<std::vector<SceneQuantity>> runs(std::size(kShifts));
+  std::vector<std::vector<SceneQuantity>> runs(std::size(kBlowShifts));
   for (const Document& quantity : document.at("quantities"))
     for (std::size_t run = 0; run < runs.size(); ++run)
       runs[run].push_back({quantity.at("name").get<std::string>(), quantity.at("runs").at(run).get<double>(),
@@ -104,9 +99,10 @@ std::vector<std::vector<SceneQuantity>> runsIn(const Document& document) {
 
 }  // namespace
 
-Scene comparedScene(const ReferenceDef& def, std::vector<Override> changes) {
+Scene comparedScene(const ReferenceDef& def, std::vector<Override> changes, double shift) {
   changes.push_back({"seed", std::to_string(kCaseSeed)});
   changes.push_back({"frames", std::to_string(def.frames)});
+  if (shift != 0) changes.push_back(shifted(loadScene(def.scene, changes), shift));
   Scene scene = loadScene(def.scene, changes);
   scene.dust.reset();  // it does not act back on the mechanics
   return scene;
@@ -134,9 +130,9 @@ void writeReference(const ReferenceDef& def, const std::filesystem::path& file,
   makeFolder(file.parent_path());
   checkFile("--reference", file, file.parent_path());
   std::vector<std::vector<SceneQuantity>> runs;
-  for (const double shift : kShifts) {
+  for (const double shift : kBlowShifts) {
     const auto shareOfAll = [&](double share) {
-      if (shown) shown((double(runs.size()) + share) / double(std::size(kShifts)));
+      if (shown) shown((double(runs.size()) + share) / double(std::size(kBlowShifts)));
     };
     runs.push_back(runToEnd(referenceScene(def, shift), shareOfAll).quantities);
     for (const SceneQuantity& quantity : runs.back())

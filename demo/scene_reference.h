@@ -32,8 +32,12 @@ struct SceneReference {
   double scatter = 0;            ///< of relativeDifference, root mean square
 };
 
-/// The scene as it is compared, of that seed and length, with these changes.
-Scene comparedScene(const ReferenceDef& def, std::vector<Override> changes);
+/// By which the blows of the runs of a reference are shifted along x [m]: far below what one could see, and
+/// above the 6e-8 that Bullet's floats tell apart at a metre.
+inline constexpr double kBlowShifts[] = {0, 1e-6, -1e-6, 2e-6, -2e-6};
+
+/// The scene as it is compared, of that seed and length, with these changes and its blow shifted [m].
+Scene comparedScene(const ReferenceDef& def, std::vector<Override> changes, double shift = 0);
 
 /// Of runs of the same quantities, at least two.
 SceneReference referenceOf(std::span<const std::vector<SceneQuantity>> runs);

@@ -75,8 +75,8 @@ ReportCase sceneCase(const SceneCaseDef& def) {
       changes.push_back({"substep_safety", rounded(safety * part)});
       const bool standard = method.standard && part == 1;
       c.runs.push_back({method.name, "substep_safety " + rounded(safety * part), standard, standard,
-                        [=] { return runCompared(reference, changes); },
-                        def.frameSeconds * def.frames / part});
+                        [=] { return runCompared(reference, changes); }, def.frameSeconds * def.frames / part,
+                        changes});
     }
   }
   return c;

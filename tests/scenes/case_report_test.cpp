@@ -51,6 +51,18 @@ TEST(CaseReport, ReferencesAreOfCasesThatHaveOneAndOfAllTheirSettings) {
     EXPECT_NE(refusalOf({"wall_blow", "--reference", option, "x"}).find(option), std::string::npos);
 }
 
+TEST(CaseReport, SettingsAreKeptOfCasesThatHaveAReferenceAndNothingElseIsRun) {
+  EXPECT_TRUE(parsed({"report", "wall_blow", "--keep"}).caseReport.keep);
+  EXPECT_NE(refusalOf({"wall_blow", "slide", "--keep"}).find("--keep: slide: has a closed form"),
+            std::string::npos);
+  EXPECT_NE(refusalOf({"wall_blow", "--keep", "--reference"}).find("must be left out"), std::string::npos);
+  for (const char* other : {"wall", "materials", "stability"})
+    EXPECT_NE(refusalOf({other, "--keep"}).find("must be left out"), std::string::npos) << other;
+  for (const char* option : {"--out", "--write"})
+    EXPECT_NE(refusalOf({"wall_blow", "--keep", option, "x"}).find("left out with --keep"),
+              std::string::npos);
+}
+
 TEST(CaseReport, AnUnknownNameIsRefusedWithTheKnownOnes) {
   EXPECT_NE(refusalOf({"cantilevr"}).find("must be one of: " + demo::reportCaseNames() + ", column"),
             std::string::npos);
