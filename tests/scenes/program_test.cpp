@@ -290,7 +290,8 @@ TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
   stop(spinning,
        "object 0 (concrete_soft, 3.6 m tall): the state of its elements is not finite, first that of ");
   stop(spinning,
-       "of its tick; lower substep_safety, or look for units other than metres, seconds, kilograms (tick ");
+       "of its tick; lower substep_safety, or look for units other than metres, seconds, kilograms; its own");
+  stop(spinning, "strength of 2 MPa (tick 0, after 0 s)");
   // What its weight foretells is said with it: rho g H = 1e5 kg/m^3 x 1000 m/s^2 x 0.16 m.
   stop(R"({"frames": 6, "breaking": false, "precision": "double", "gravity": [0, 1000, 0],
            "objects": [{"size": [0.16, 0.16, 0.16], "elements": 40, "velocity": [0, 0, 10000],
