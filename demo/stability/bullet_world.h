@@ -11,10 +11,7 @@ namespace rubble::stability {
 
 struct BulletWorld {
   BulletWorld() { ground = add(0, groundShape, {0, 0, 0}); }
-  ~BulletWorld() {
-    destruction.reset();
-    while (world.getNumCollisionObjects() > 0) remove(world.getCollisionObjectArray()[0]);
-  }
+  ~BulletWorld() { clear(); }
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
@@ -30,6 +27,11 @@ struct BulletWorld {
   void remove(btCollisionObject* object) {
     world.removeCollisionObject(object);
     delete object;
+  }
+  /// Everything; by whoever's shapes do not outlive the world.
+  void clear() {
+    destruction.reset();
+    while (world.getNumCollisionObjects() > 0) remove(world.getCollisionObjectArray()[0]);
   }
 
   btDefaultCollisionConfiguration configuration;

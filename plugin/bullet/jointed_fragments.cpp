@@ -60,6 +60,22 @@ void Destruction::Impl::gatherJoints() {
   }
 }
 
+bool Destruction::Impl::hasJoint(const btTypedConstraint* joint) const {
+  for (int i = 0; i < world.getNumConstraints(); ++i)
+    if (world.getConstraint(i) == joint) return true;
+  return false;
+}
+
+// A body is being deleted, perhaps within a tick.
+void Destruction::Impl::forgetJointsOf(const DestructibleBody& body) {
+  for (auto* all : {&joints, &lastJoints})
+    for (bullet::HeldJoint& held : *all) {
+      if (held.ends[0].body != &body && held.ends[1].body != &body) continue;
+      if (held.lent && hasJoint(held.joint)) held.joint->setJointFeedback(nullptr);
+      held = {};
+    }
+}
+
 // Bullet sees of a body that a joint holds the fragment which is held. Places do not change, frames do.
 void Destruction::Impl::takeFragment(DestructibleBody& body) {
   DestructibleBody::Impl& own = body.impl();

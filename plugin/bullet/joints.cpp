@@ -215,6 +215,9 @@ bullet::JointImpulse solvedImpulse(const bullet::HeldJoint& held, int e, double 
 void Destruction::Impl::takeJoints(double dt) {
   if (joints.empty()) return;
   BT_PROFILE("Rubble take joints");
+  // Actions of the application that came first may have taken some away.
+  for (bullet::HeldJoint& held : joints)
+    if (!hasJoint(held.joint)) held = {};
   for (bullet::HeldJoint& held : joints)
     for (int e = 0; e < 2; ++e) {
       bullet::JointEnd& end = held.ends[e];

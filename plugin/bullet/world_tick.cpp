@@ -144,6 +144,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   const auto found = std::find(bodies.begin(), bodies.end(), &body);
   if (found == bodies.end()) return;
   bodies.erase(found);
+  forgetJointsOf(body);
   wholes -= body.isWhole();
   world.removeConstraint(body.impl().coupler.get());
   const edem::Books before = solver->books();

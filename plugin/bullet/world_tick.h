@@ -113,6 +113,8 @@ struct Destruction::Impl {
   void loadJoints(double dt);
   void poseJoints(double dt);
   void takeJoints(double dt);
+  bool hasJoint(const btTypedConstraint* joint) const;
+  void forgetJointsOf(const DestructibleBody& body);
   void takeFragment(DestructibleBody& body);
   void chooseFragment(DestructibleBody& body);
   void moveJointFrames(DestructibleBody& body, const btTransform& by);

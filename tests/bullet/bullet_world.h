@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "demo/stability/bullet_world.h"
 #include "rubble/destruction.h"
 #include "support/strict_cook.h"
 
@@ -21,30 +22,14 @@ inline std::shared_ptr<const Asset> smallWall() {
   return asset;
 }
 
-struct BulletWorld {
+struct BulletWorld : stability::BulletWorld {
   /// A warning fails the test unless `def` brings a log of its own.
   explicit BulletWorld(DestructionDef def = {}) {
     world.setGravity({0, btScalar(-9.81), 0});
-    ground = add(0, groundShape, {0, 0, 0});
     if (!def.log) def.log = strictLog();
     destruction = std::make_unique<Destruction>(world, def);
   }
-  ~BulletWorld() {
-    destruction.reset();
-    while (world.getNumCollisionObjects() > 0) {
-      btCollisionObject* object = world.getCollisionObjectArray()[0];
-      world.removeCollisionObject(object);
-      delete object;
-    }
-  }
-  btRigidBody* add(btScalar mass, btCollisionShape& shape, const btVector3& at) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-    auto* body = new btRigidBody(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia));
-    body->setWorldTransform(btTransform(btQuaternion::getIdentity(), at));
-    world.addRigidBody(body);
-    return body;
-  }
+  ~BulletWorld() { clear(); }
   DestructibleBody* addWall(const Material& material) {
     DestructibleBodyDef def;
     def.asset = smallWall();
@@ -52,15 +37,7 @@ struct BulletWorld {
     return destruction->addBody(def);
   }
 
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
-  btStaticPlaneShape groundShape{{0, 1, 0}, 0};
   btSphereShape ballShape{btScalar(0.1)};
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  std::unique_ptr<Destruction> destruction;
-  btRigidBody* ground = nullptr;
 };
 
 }  // namespace rubble::test

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bullet/regime_bodies.h"
@@ -188,6 +190,42 @@ TEST(Joint, TwoBodiesKeepTheirMomenta) {
   EXPECT_LT(double(gap.length()), 2e-3);
   EXPECT_GT(double(c.angular.length()), 0);
   w.expectClosed();
+}
+
+// An action of the application that comes before ours, within the tick that Bullet has solved the joint in.
+struct Takes : btActionInterface {
+  explicit Takes(std::function<void()> what) : take(std::move(what)) {}
+  void updateAction(btCollisionWorld*, btScalar) override {
+    if (take) std::exchange(take, nullptr)();
+  }
+  void debugDraw(btIDebugDraw*) override {}
+  std::function<void()> take;
+};
+
+// AddressSanitizer tells, too.
+TEST(Joint, AnActionMayDeleteTheJointOrTheBody) {
+  for (const bool bodyToo : {false, true}) {
+    JointWorld w;
+    DestructibleBody* column = w.hang(0, Regime::Elements);
+    w.step(10);
+    Takes action([&] {
+      w.world.removeConstraint(w.joints[0].get());
+      w.joints.clear();
+      if (bodyToo) w.destruction->removeBody(column);
+    });
+    w.world.removeAction(w.destruction.get());
+    w.world.addAction(&action);
+    w.world.addAction(w.destruction.get());
+    w.step(24);
+    w.world.removeAction(&action);
+    EXPECT_EQ(w.destruction->bodies().size(), bodyToo ? 0u : 1u);
+    // It falls freely from where it hung, by g t^2 / 2 and half a tick's speed.
+    if (!bodyToo) {
+      const double fallen = double(w.kPivot.y()) - 0.2 - double(column->getCenterOfMassPosition().y());
+      EXPECT_NEAR(fallen, 9.81 / 2 * 0.1 * 0.1, 9.81 * 0.1 / 240);
+    }
+    EXPECT_EQ(w.destruction->failure(), "");
+  }
 }
 
 // What it gives a rigid body of Bullet's it has lost itself.

@@ -38,6 +38,26 @@ class HostileAsset : public testing::Test {
   std::string m_bytes;
 };
 
+struct AssetFault {
+  const char* words;  // of the refusal
+  std::function<void(Asset&)> make;
+};
+
+// Each of them alone, and the refusal says what is allowed.
+void expectRefused(const Asset& good, const std::vector<AssetFault>& faults) {
+  for (const AssetFault& fault : faults) {
+    Asset bad = good;
+    fault.make(bad);
+    try {
+      bad.validate();
+      ADD_FAILURE() << "accepted; expected: " << fault.words;
+    } catch (const Error& error) {
+      expectHas(error.what(), fault.words);
+      expectHas(error.what(), "allowed");
+    }
+  }
+}
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // No field at all may hold these: no element is so large or so small, no place so far away.
@@ -80,11 +100,7 @@ TEST_F(HostileAsset, RadiusIsNamedWithWhatIsAllowed) {
 }
 
 TEST_F(HostileAsset, ContradictionsAreNamed) {
-  struct Fault {
-    const char* words;
-    std::function<void(Asset&)> make;
-  };
-  const std::vector<Fault> faults = {
+  const std::vector<AssetFault> faults = {
       {"positions[1] is 0 m from positions[0]", [](Asset& a) { a.positions[1] = a.positions[0]; }},
       {"positions[", [](Asset& a) { a.positions[3] += Eigen::Vector3d(3, 0, 0); }},
       {"volumes[2] is", [](Asset& a) { a.volumes[2] *= 0.99; }},
@@ -103,17 +119,7 @@ TEST_F(HostileAsset, ContradictionsAreNamed) {
       {"its own cell", [](Asset& a) { a.faces[0].neighbour = 0; }},
       {"volumes[", [](Asset& a) { a.vertices[0].position.x() += 0.5f; }},
       {"cells[0] has", [](Asset& a) { a.cells[0].outerTriangles = kNoElement; }}};
-  for (const Fault& fault : faults) {
-    Asset bad = m_asset;
-    fault.make(bad);
-    try {
-      bad.validate();
-      ADD_FAILURE() << "accepted; expected: " << fault.words;
-    } catch (const Error& error) {
-      expectHas(error.what(), fault.words);
-      expectHas(error.what(), "allowed");
-    }
-  }
+  expectRefused(m_asset, faults);
 }
 
 // The cook puts a cell's corners together; a file need not, and gets away with nothing by it.
@@ -124,12 +130,8 @@ TEST_F(HostileAsset, CornersInAnyOrderAreChecked) {
   for (auto& triangle : turned.triangles)
     for (std::uint32_t& corner : triangle) corner = last - corner;
   EXPECT_NO_THROW(turned.validate());
-  struct Fault {
-    const char* words;
-    std::function<void(Asset&)> make;
-  };
   // Corner 0 is of the last cell, the first cell's are the last.
-  const std::vector<Fault> faults = {
+  const std::vector<AssetFault> faults = {
       {"corners[0].normal has length 2", [](Asset& a) { a.corners[0].normal *= 2; }},
       {"corners[0].normal has length 1", [](Asset& a) { a.corners[0].normal *= 1.0002f; }},
       {"corners[0].vertex is 4294967295", [](Asset& a) { a.corners[0].vertex = kNoElement; }},
@@ -146,16 +148,7 @@ TEST_F(HostileAsset, CornersInAnyOrderAreChecked) {
       {".element is 4294967295", [](Asset& a) {
          a.corners.push_back({0, kNoElement, Eigen::Vector3f::UnitX()});
        }}};
-  for (const Fault& fault : faults) {
-    Asset bad = turned;
-    fault.make(bad);
-    try {
-      bad.validate();
-      ADD_FAILURE() << "accepted; expected: " << fault.words;
-    } catch (const Error& error) {
-      expectHas(error.what(), fault.words);
-    }
-  }
+  expectRefused(turned, faults);
 }
 
 // Threads check cells by ranges, and whoever finds something there has it told by one thread: of two faults
