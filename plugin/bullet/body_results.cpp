@@ -20,6 +20,13 @@ constexpr double kHeldShare = 0.05;
 constexpr btScalar kTrust = btScalar(0.25);
 }  // namespace
 
+// Actions of the application that come first in a tick may have taken bodies out of the world.
+void Destruction::Impl::forgetTaken() {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (bullet::TouchedBody& t : touched)
+    if (t.rigid && objects.findLinearSearch(t.object) == objects.size()) t.rigid = nullptr;
+}
+
 // Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
 void Destruction::Impl::lateImpulses() {
   BT_PROFILE("Rubble late impulses");

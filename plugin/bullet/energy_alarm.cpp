@@ -76,7 +76,7 @@ std::vector<std::string> EnergyAlarm::end(std::span<const TouchedBody> touched,
     if (account.told || !(made > bar)) continue;
     account.told = true;
     ++m_told;
-    const btVector3& at = touched[p].object->getWorldTransform().getOrigin();
+    const Eigen::Vector3d& at = proxy.position;
     char line[300];
     std::snprintf(
         line, sizeof line,
@@ -86,7 +86,7 @@ std::vector<std::string> EnergyAlarm::end(std::span<const TouchedBody> touched,
         touched[p].rigid  ? "dynamic"
         : proxy.kinematic ? "kinematic"
                           : "static",
-        double(at.x()), double(at.y()), double(at.z()), energy + m_largestKinetic, 100 * kTolerance);
+        at.x(), at.y(), at.z(), energy + m_largestKinetic, 100 * kTolerance);
     lines.emplace_back(line);
   }
   return lines;

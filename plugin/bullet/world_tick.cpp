@@ -293,6 +293,7 @@ void Destruction::Impl::finish(double dt) {
     body->impl().near.clear();
   }
   if (advanced) {
+    forgetTaken();
     lateImpulses();
     noteReactions(dt);
     fixPositions();

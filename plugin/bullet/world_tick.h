@@ -94,6 +94,7 @@ struct Destruction::Impl {
   void gatherProxies(double dt);
   void spareFiltered();
   void followElements();
+  void forgetTaken();
   void lateImpulses();
   void fixPositions();
   void noteReactions(double dt);

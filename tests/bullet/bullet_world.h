@@ -3,7 +3,9 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "demo/stability/bullet_world.h"
 #include "rubble/destruction.h"
@@ -22,6 +24,16 @@ inline std::shared_ptr<const Asset> smallWall() {
   return asset;
 }
 
+// An action of the application that comes before ours, within the tick that Bullet has solved the joint in.
+struct Takes : btActionInterface {
+  explicit Takes(std::function<void()> what) : take(std::move(what)) {}
+  void updateAction(btCollisionWorld*, btScalar) override {
+    if (take) std::exchange(take, nullptr)();
+  }
+  void debugDraw(btIDebugDraw*) override {}
+  std::function<void()> take;
+};
+
 struct BulletWorld : stability::BulletWorld {
   /// A warning fails the test unless `def` brings a log of its own.
   explicit BulletWorld(DestructionDef def = {}) {
@@ -35,6 +47,12 @@ struct BulletWorld : stability::BulletWorld {
     def.asset = smallWall();
     def.material = material;
     return destruction->addBody(def);
+  }
+
+  void actFirst(btActionInterface& action) {
+    world.removeAction(destruction.get());
+    world.addAction(&action);
+    world.addAction(destruction.get());
   }
 
   btSphereShape ballShape{btScalar(0.1)};

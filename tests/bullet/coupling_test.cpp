@@ -53,6 +53,23 @@ TEST(Coupling, MomentumLedgerClosesInFloat) {
   EXPECT_LT(worst, 1e-4);
 }
 
+// In the tick in which it breaks the wall. AddressSanitizer tells, too.
+TEST(Coupling, AnActionMayDeleteTheBallThatHits) {
+  BulletWorld w;
+  w.addWall(material("concrete_soft"));
+  btRigidBody* ball = w.add(10, w.ballShape, {0, btScalar(0.25), btScalar(-0.4)});
+  ball->setLinearVelocity({0, 0, 10});
+  const auto step = [&] { w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240); };
+  for (int tick = 0; tick < 48 && w.destruction->counts().springsBroken == 0; ++tick) step();
+  ASSERT_GT(w.destruction->counts().springsBroken, 0u);
+  Takes action([&] { w.remove(ball); });
+  w.actFirst(action);
+  for (int tick = 0; tick < 24; ++tick) step();
+  w.world.removeAction(&action);
+  EXPECT_EQ(w.destruction->failure(), "");
+  EXPECT_LT(w.destruction->ledger().linearError, 1e-4);
+}
+
 TEST(Coupling, BallGetsWhatTheElementsGive) {
   // No ground contact, gravity or crushing: what the ball loses the elements have, to the rounding of
   // Bullet's scalars; 8 ulp of the ball's momentum in 48 ticks.

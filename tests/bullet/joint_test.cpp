@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "bullet/regime_bodies.h"
@@ -192,16 +190,6 @@ TEST(Joint, TwoBodiesKeepTheirMomenta) {
   w.expectClosed();
 }
 
-// An action of the application that comes before ours, within the tick that Bullet has solved the joint in.
-struct Takes : btActionInterface {
-  explicit Takes(std::function<void()> what) : take(std::move(what)) {}
-  void updateAction(btCollisionWorld*, btScalar) override {
-    if (take) std::exchange(take, nullptr)();
-  }
-  void debugDraw(btIDebugDraw*) override {}
-  std::function<void()> take;
-};
-
 // AddressSanitizer tells, too.
 TEST(Joint, AnActionMayDeleteTheJointOrTheBody) {
   for (const bool bodyToo : {false, true}) {
@@ -213,9 +201,7 @@ TEST(Joint, AnActionMayDeleteTheJointOrTheBody) {
       w.joints.clear();
       if (bodyToo) w.destruction->removeBody(column);
     });
-    w.world.removeAction(w.destruction.get());
-    w.world.addAction(&action);
-    w.world.addAction(w.destruction.get());
+    w.actFirst(action);
     w.step(24);
     w.world.removeAction(&action);
     EXPECT_EQ(w.destruction->bodies().size(), bodyToo ? 0u : 1u);
