@@ -65,7 +65,7 @@ double bentModulus(const Material& m, const Size& size) {
     const double x = def.asset->positions[i].x() + kBeamLength / 2;
     if (x < kOuter) continue;
     asked += timoshenkoSag(kBeamLength, kBeamHeight, x, m.density, m.youngsModulus, gravity);
-    sag -= body.displacement[i].y();
+    sag -= body.state.displacement[i].y();
   }
   return m.youngsModulus * asked / sag;
 }

@@ -11,10 +11,11 @@ RateBound bodyBound(const Body<Real>& body) {
   springRates(body, std::span(rates));
   RateBound bound = springBound(body, std::span<const ElementRates>(rates));
   // Any element may press another, or a rigid body, beside its springs.
-  const ContactLaw<double> law = contactLaw(body.contact, body.contact);
+  const ContactLaw<double> law = contactLaw(body.constants->contact, body.constants->contact);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     ElementRates contact = rates[i];
-    const ElementRates one = contactRates(law, 1 / body.mass[i], 1 / body.inertia[i], double(body.radius));
+    const ElementRates one = contactRates(law, 1 / body.constants->mass[i], 1 / body.constants->inertia[i],
+                                          double(body.constants->radius));
     contact.stiffness += one.stiffness;
     contact.damping += one.damping;
     bound.add(contact, {});
@@ -26,10 +27,10 @@ template <class Real>
 double speedOf(const Body<Real>& b, const Eigen::Vector3d& drift) {
   const Vec3<Real> common = drift.cast<Real>();
   double fastest = 0;
-  for (const std::uint32_t i : b.awake)
-    if (b.alive[i])
-      fastest = std::max(
-          fastest, double((b.velocity[i] - common).norm()) + double(b.radius) * double(b.spin[i].norm()));
+  for (const std::uint32_t i : b.work.awake)
+    if (b.state.alive[i])
+      fastest = std::max(fastest, double((b.state.velocity[i] - common).norm()) +
+                                      double(b.constants->radius) * double(b.state.spin[i].norm()));
   return fastest;
 }
 
@@ -37,7 +38,7 @@ template <class Real>
 Eigen::AlignedBox3d boundsOf(const Body<Real>& b) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < b.elementCount(); ++i)
-    if (b.alive[i]) box.extend(b.worldPosition(i));
+    if (b.state.alive[i]) box.extend(b.worldPosition(i));
   if (box.isEmpty()) return box;
   box.min().array() -= b.reach();
   box.max().array() += b.reach();
@@ -48,19 +49,19 @@ template <class Real>
 void elementsIn(const Body<Real>& body, const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& out) {
   out.clear();
   for (std::uint32_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i] && box.contains(body.worldPosition(i))) out.push_back(i);
+    if (body.state.alive[i] && box.contains(body.worldPosition(i))) out.push_back(i);
 }
 
 template <class Real>
 void addTo(base::Fnv1a& hash, const Body<Real>& body) {
-  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.displacement)));
-  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.velocity)));
-  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.spin)));
-  hash.add(std::as_bytes(std::span<const Quat<Real>>(body.rotation)));
-  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.alive)));
-  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.intact)));
-  hash.add(std::as_bytes(std::span<const std::uint32_t>(body.frameOf)));
-  for (const Frame& f : body.frames) {
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.state.displacement)));
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.state.velocity)));
+  hash.add(std::as_bytes(std::span<const Vec3<Real>>(body.state.spin)));
+  hash.add(std::as_bytes(std::span<const Quat<Real>>(body.state.rotation)));
+  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.state.alive)));
+  hash.add(std::as_bytes(std::span<const std::uint8_t>(body.state.intact)));
+  hash.add(std::as_bytes(std::span<const std::uint32_t>(body.state.frameOf)));
+  for (const Frame& f : body.state.frames) {
     hash.add(std::as_bytes(std::span<const double>(f.origin.data(), 3)));
     hash.add(std::as_bytes(std::span<const double>(f.turn.coeffs().data(), 4)));
   }

@@ -14,9 +14,9 @@ namespace {
 template <class Real>
 double largestStress(const Body<Real>& body) {
   double most2 = 0;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    if (!body.state.intact[s]) continue;
+    const Spring<Real>& spring = body.state.springs[s];
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
     const double energy = double(load.stretchEnergy) + double(load.rotationEnergy),
                  area = double(spring.area);
@@ -29,23 +29,24 @@ double largestStress(const Body<Real>& body) {
 
 template <class Real>
 Unrest unrestOf(const Body<Real>& body) {
-  assert(body.fragmentCount == 1);
+  assert(body.state.fragmentCount == 1);
   Unrest all;
   RigidMotion whole;
-  if (body.anchorsIntact == 0) whole = rigidMotions(body).begin()->second;
+  if (body.state.anchorsIntact == 0) whole = rigidMotions(body).begin()->second;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    const double radius = double(body.radius);
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>() - whole.at(body.worldPosition(i));
-    const Eigen::Vector3d w = body.spin[i].template cast<double>() - whole.spin;
+    if (!body.state.alive[i]) continue;
+    const double radius = double(body.constants->radius);
+    const Eigen::Vector3d v =
+        body.state.velocity[i].template cast<double>() - whole.at(body.worldPosition(i));
+    const Eigen::Vector3d w = body.state.spin[i].template cast<double>() - whole.spin;
     all.trembling = std::max(all.trembling, v.norm() + radius * w.norm());
     const double arm = (body.worldPosition(i) - whole.centre).norm() + radius;
     all.speed = std::max(all.speed, whole.velocity.norm() + arm * whole.spin.norm());
-    Vec3<Real> from = body.displacement[i];
-    if (!body.parkedAt.empty()) from -= body.parkedAt[i];
+    Vec3<Real> from = body.state.displacement[i];
+    if (!body.state.parkedAt.empty()) from -= body.state.parkedAt[i];
     all.deformation = std::max(all.deformation, double(from.norm()));
   }
-  all.stress = largestStress(body) / double(body.criterion.tension);
+  all.stress = largestStress(body) / double(body.constants->criterion.tension);
   return all;
 }
 

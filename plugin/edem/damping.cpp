@@ -11,8 +11,8 @@ namespace {
 
 template <class Real>
 double kineticOf(const Body<Real>& body, std::size_t i) {
-  return 0.5 * (body.mass[i] * body.velocity[i].template cast<double>().squaredNorm() +
-                body.inertia[i] * body.spin[i].template cast<double>().squaredNorm());
+  return 0.5 * (body.constants->mass[i] * body.state.velocity[i].template cast<double>().squaredNorm() +
+                body.constants->inertia[i] * body.state.spin[i].template cast<double>().squaredNorm());
 }
 
 }  // namespace
@@ -28,29 +28,31 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
   assert(rates.size() == body.elementCount() && dt >= 0);
   const auto motions = rigidMotions(body);
   std::vector<std::uint8_t> held(body.elementCount(), 0);
-  for (const std::uint32_t i : body.awake)
-    if (body.alive[i] && body.anchored[i]) held[body.fragment[i]] = 1;
-  for (const std::uint32_t i : body.awake) {
-    if (!body.alive[i]) continue;
-    const double rate = rates[body.fragment[i]];
+  for (const std::uint32_t i : body.work.awake)
+    if (body.state.alive[i] && body.state.anchored[i]) held[body.state.fragment[i]] = 1;
+  for (const std::uint32_t i : body.work.awake) {
+    if (!body.state.alive[i]) continue;
+    const double rate = rates[body.state.fragment[i]];
     assert(rate >= 0);
     if (!(rate > 0)) continue;
     const double lost = -std::expm1(-rate * dt);
-    const bool isHeld = held[body.fragment[i]] != 0;
-    const RigidMotion& m = motions.at(body.fragment[i]);
+    const bool isHeld = held[body.state.fragment[i]] != 0;
+    const RigidMotion& m = motions.at(body.state.fragment[i]);
     const Eigen::Vector3d x = body.worldPosition(i);
     const Eigen::Vector3d v = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.at(x);
     const Eigen::Vector3d w = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.spin;
     const double before = kineticOf(body, i);
-    const Vec3<Real> velocity = body.velocity[i], spin = body.spin[i];
-    body.velocity[i] += (lost * (v - velocity.template cast<double>())).template cast<Real>();
-    body.spin[i] += (lost * (w - spin.template cast<double>())).template cast<Real>();
+    const Vec3<Real> velocity = body.state.velocity[i], spin = body.state.spin[i];
+    body.state.velocity[i] += (lost * (v - velocity.template cast<double>())).template cast<Real>();
+    body.state.spin[i] += (lost * (w - spin.template cast<double>())).template cast<Real>();
     const double taken = before - kineticOf(body, i);
     books.massDamped += taken;
     books.kinetic -= taken;
     if (!isHeld) continue;  // the others of the fragment have it
-    const Eigen::Vector3d push = body.mass[i] * (body.velocity[i] - velocity).template cast<double>();
-    const Eigen::Vector3d turn = body.inertia[i] * (body.spin[i] - spin).template cast<double>();
+    const Eigen::Vector3d push =
+        body.constants->mass[i] * (body.state.velocity[i] - velocity).template cast<double>();
+    const Eigen::Vector3d turn =
+        body.constants->inertia[i] * (body.state.spin[i] - spin).template cast<double>();
     books.anchors.push(1, push, x - books.centre, turn);
     books.linear += push;
     books.angular += (x - books.centre).cross(push) + turn;
@@ -61,14 +63,16 @@ template <class Real>
 void brake(Body<Real>& body, std::uint32_t i, double share, Books& books) {
   assert(share >= 0 && share <= 1);
   const double before = kineticOf(body, i);
-  const Vec3<Real> velocity = body.velocity[i], spin = body.spin[i];
-  body.velocity[i] *= Real(1 - share);
-  body.velocityCarry[i] *= Real(1 - share);
-  body.spin[i] *= Real(1 - share);
+  const Vec3<Real> velocity = body.state.velocity[i], spin = body.state.spin[i];
+  body.state.velocity[i] *= Real(1 - share);
+  body.state.velocityCarry[i] *= Real(1 - share);
+  body.state.spin[i] *= Real(1 - share);
   const double taken = before - kineticOf(body, i);
-  const Eigen::Vector3d momentum = body.mass[i] * (velocity - body.velocity[i]).template cast<double>();
-  const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(momentum) +
-                                  body.inertia[i] * (spin - body.spin[i]).template cast<double>();
+  const Eigen::Vector3d momentum =
+      body.constants->mass[i] * (velocity - body.state.velocity[i]).template cast<double>();
+  const Eigen::Vector3d angular =
+      (body.worldPosition(i) - books.centre).cross(momentum) +
+      body.constants->inertia[i] * (spin - body.state.spin[i]).template cast<double>();
   books.slept += taken;
   books.sleptLinear += momentum;
   books.sleptAngular += angular;
@@ -80,7 +84,7 @@ void brake(Body<Real>& body, std::uint32_t i, double share, Books& books) {
 template <class Real>
 void bookSlept(Body<Real>& body, Books& books) {
   for (std::uint32_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i]) brake(body, i, 1, books);
+    if (body.state.alive[i]) brake(body, i, 1, books);
 }
 
 template void dampDeformation(Body<float>&, double, double, Books&);

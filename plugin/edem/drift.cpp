@@ -23,15 +23,15 @@ struct Thing {
 template <class Real>
 Thing thingOf(const Body<Real>& body) {
   Thing thing;
-  if (body.parked) return thing;  // the host has a rigid body for it
+  if (body.state.parked) return thing;  // the host has a rigid body for it
   thing.box = boundsOf(body);
-  thing.moves = !body.asleep && body.sleepingCount == 0 && body.anchorsIntact == 0;
+  thing.moves = !body.state.asleep && body.state.sleepingCount == 0 && body.state.anchorsIntact == 0;
   if (!thing.moves) return thing;
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    thing.mass += body.mass[i];
-    momentum += body.mass[i] * body.velocity[i].template cast<double>();
+    if (!body.state.alive[i]) continue;
+    thing.mass += body.constants->mass[i];
+    momentum += body.constants->mass[i] * body.state.velocity[i].template cast<double>();
   }
   if (thing.mass > 0) thing.velocity = momentum / thing.mass;
   return thing;

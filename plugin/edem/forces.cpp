@@ -9,17 +9,18 @@ namespace {
 
 // Adds (sign 1) or takes back (sign -1) what a spring does to its elements.
 template <class Real>
-void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Real sign) {
-  const Spring<Real>& spring = body.springs[s];
+void addSpring(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Real sign,
+               BodyWork<Real>& work) {
+  const Spring<Real>& spring = body.state.springs[s];
   const Vec3<Real> elastic = sign * load.elastic, damping = sign * load.damping;
   const Vec3<Real> all = elastic + damping;
   const Vec3<Real> elasticTorque = sign * load.elasticTorque, dampingTorque = sign * load.dampingTorque;
   const auto add = [&](std::uint32_t i, const Vec3<Real>& f, const Vec3<Real>& fd, const Vec3<Real>& arm,
                        Real side) {
-    body.force[i] += f;
-    body.dampingForce[i] += fd;
-    body.torque[i] += arm.cross(all) + side * (elasticTorque + dampingTorque);
-    body.dampingTorque[i] += arm.cross(damping) + side * dampingTorque;
+    work.force[i] += f;
+    work.dampingForce[i] += fd;
+    work.torque[i] += arm.cross(all) + side * (elasticTorque + dampingTorque);
+    work.dampingTorque[i] += arm.cross(damping) + side * dampingTorque;
   };
   add(spring.first, all, damping, load.armFirst, Real(1));
   if (!body.isAnchor(s)) add(spring.second, -all, -damping, load.armSecond, Real(-1));
@@ -29,123 +30,130 @@ void addSpring(Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, Re
 template <class Real>
 void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, double signedKick,
                 Books& books) {
-  const std::uint32_t i = body.springs[s].first;
+  const std::uint32_t i = body.state.springs[s].first;
   const Vec3<Real> force = load.elastic + load.damping;
   const Vec3<Real> torque = load.armFirst.cross(force) + load.elasticTorque + load.dampingTorque;
-  const Eigen::Vector3d arm = body.origin - books.centre + body.position[i];
+  const Eigen::Vector3d arm = body.state.origin - books.centre + body.work.position[i];
   books.anchors.push(signedKick, force.template cast<double>(), arm, torque.template cast<double>());
 }
 
 }  // namespace
 
 template <class Real>
-void beginSubstep(Body<Real>& body) {
-  for (const std::uint32_t i : body.awake) {
-    body.position[i] = body.rest[i] + body.displacement[i].template cast<double>();
-    body.force[i].setZero();
-    body.torque[i].setZero();
-    body.dampingForce[i].setZero();
-    body.dampingTorque[i].setZero();
-    body.load[i] = 0;
+void beginSubstep(const BodyState<Real>& state, BodyWork<Real>& work) {
+  for (const std::uint32_t i : work.awake) {
+    work.position[i] = work.rest[i] + state.displacement[i].template cast<double>();
+    work.force[i].setZero();
+    work.torque[i].setZero();
+    work.dampingForce[i].setZero();
+    work.dampingTorque[i].setZero();
+    work.load[i] = 0;
   }
-  body.overloaded.clear();
-  body.overloadMode.clear();
-  body.crushing.clear();
+  work.overloaded.clear();
+  work.overloadMode.clear();
+  work.crushing.clear();
 }
 
 template <class Real>
-double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books) {
+double accumulateSprings(const Body<Real>& body, BodyWork<Real>& work, double kick, bool breaking,
+                         Books& books) {
   assert(std::isfinite(kick) && kick >= 0);
-  assert(body.intact.size() == body.springs.size() && body.force.size() == body.elementCount());
-  double elastic = body.energyAsleep;
-  for (const std::uint32_t s : body.awakeSprings) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
+  assert(body.state.intact.size() == body.state.springs.size() && work.force.size() == body.elementCount());
+  double elastic = body.state.energyAsleep;
+  for (const std::uint32_t s : work.awakeSprings) {
+    if (!body.state.intact[s]) continue;
+    const Spring<Real>& spring = body.state.springs[s];
     assert(spring.first < body.elementCount() && spring.second < body.elementCount());
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
     const Real energy = load.stretchEnergy + load.rotationEnergy;
     elastic += double(energy);
     // Eq. (3): each spring counts for both its elements (DEVIATION, default: with the energy of k_rot).
-    body.load[spring.first] += energy;
+    work.load[spring.first] += energy;
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, kick, books);
     } else {
-      body.load[spring.second] += energy;
+      work.load[spring.second] += energy;
     }
-    addSpring(body, s, load, Real(1));
+    addSpring(body, s, load, Real(1), work);
     BreakMode mode{};
-    if (breaking && breaks(body.criterion, spring, load, mode)) {
-      body.overloaded.push_back(s);
-      body.overloadMode.push_back(mode);
+    if (breaking && breaks(body.constants->criterion, spring, load, mode)) {
+      work.overloaded.push_back(s);
+      work.overloadMode.push_back(mode);
     }
   }
   return elastic;
 }
 
 template <class Real>
-void markCrushed(Body<Real>& body) {
-  for (const std::uint32_t i : body.awake) {
-    if (!body.alive[i] || !(body.load[i] > body.crushEnergy[i])) continue;
-    body.leaving[i] = 1;
-    body.crushing.push_back(i);
+void markCrushed(const Body<Real>& body, BodyWork<Real>& work) {
+  for (const std::uint32_t i : work.awake) {
+    if (!body.state.alive[i] || !(work.load[i] > body.constants->crushEnergy[i])) continue;
+    work.leaving[i] = 1;
+    work.crushing.push_back(i);
   }
-  if (body.crushing.empty()) return;
-  std::vector<std::uint8_t>& listed = body.springListed;
-  for (const std::uint32_t s : body.overloaded) listed[s] = 1;
-  for (const std::uint32_t i : body.crushing) {
-    for (std::uint32_t k = body.springOffsets[i]; k < body.springOffsets[i + 1]; ++k) {
-      const std::uint32_t s = body.springsOf[k];
-      if (!body.intact[s] || listed[s]) continue;
+  if (work.crushing.empty()) return;
+  std::vector<std::uint8_t>& listed = work.springListed;
+  for (const std::uint32_t s : work.overloaded) listed[s] = 1;
+  for (const std::uint32_t i : work.crushing) {
+    for (std::uint32_t k = body.constants->springOffsets[i]; k < body.constants->springOffsets[i + 1]; ++k) {
+      const std::uint32_t s = body.constants->springsOf[k];
+      if (!body.state.intact[s] || listed[s]) continue;
       listed[s] = 1;
-      body.overloaded.push_back(s);
-      body.overloadMode.push_back(BreakMode::Crushed);
+      work.overloaded.push_back(s);
+      work.overloadMode.push_back(BreakMode::Crushed);
     }
   }
-  for (const std::uint32_t s : body.overloaded) listed[s] = 0;
+  for (const std::uint32_t s : work.overloaded) listed[s] = 0;
 }
 
 template <class Real>
 void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<Real>& lists, Books& books,
                  TickReport& report) {
   assert(std::isfinite(kick) && kick >= 0);
-  assert(body.overloadMode.size() == body.overloaded.size());
-  for (std::size_t k = 0; k < body.overloaded.size(); ++k) {
-    const std::uint32_t s = body.overloaded[k];
-    assert(s < body.springs.size() && body.intact[s]);
-    const Spring<Real>& spring = body.springs[s];
+  assert(body.work.overloadMode.size() == body.work.overloaded.size());
+  for (std::size_t k = 0; k < body.work.overloaded.size(); ++k) {
+    const std::uint32_t s = body.work.overloaded[k];
+    assert(s < body.state.springs.size() && body.state.intact[s]);
+    const Spring<Real>& spring = body.state.springs[s];
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
-    addSpring(body, s, load, Real(-1));
-    body.intact[s] = 0;
-    ++body.brokenCount;
+    addSpring(body, s, load, Real(-1), body.work);
+    body.state.intact[s] = 0;
+    ++body.state.brokenCount;
     const double energy = double(load.stretchEnergy) + double(load.rotationEnergy);
     books.elastic -= energy;
     books.fracture += energy + 0.5 * kick * double(load.power);
 
     const Eigen::Vector3d at =
-        body.origin + body.position[spring.first] + load.armFirst.template cast<double>();
-    report.broken.push_back({body.id, s, body.overloadMode[k], energy, at});
+        body.state.origin + body.work.position[spring.first] + load.armFirst.template cast<double>();
+    report.broken.push_back({body.id, s, body.work.overloadMode[k], energy, at});
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, -kick, books);
-      --body.anchorsIntact;
+      --body.state.anchorsIntact;
       bool held = false;
-      for (std::uint32_t q = body.springOffsets[spring.first]; q < body.springOffsets[spring.first + 1]; ++q)
-        held = held || (body.isAnchor(body.springsOf[q]) && body.intact[body.springsOf[q]]);
-      if (!held) body.anchored[spring.first] = 0;
+      for (std::uint32_t q = body.constants->springOffsets[spring.first];
+           q < body.constants->springOffsets[spring.first + 1]; ++q)
+        held = held || (body.isAnchor(body.constants->springsOf[q]) &&
+                        body.state.intact[body.constants->springsOf[q]]);
+      if (!held) body.state.anchored[spring.first] = 0;
     } else {
-      const Real distance = Real((body.position[spring.second] - body.position[spring.first]).norm());
-      body.range[s] = std::fmin(Real(2) * body.radius, distance);
-      if (body.cells) exposeBroken(*body.cells, body.intact, spring.first, spring.second, body.exposure);
-      if (!body.model.contactBesideSpring) lists.addBroken(place, {spring.first, spring.second, s});
+      const Real distance =
+          Real((body.work.position[spring.second] - body.work.position[spring.first]).norm());
+      body.state.range[s] = std::fmin(Real(2) * body.constants->radius, distance);
+      if (body.constants->cells)
+        exposeBroken(*body.constants->cells, body.state.intact, spring.first, spring.second,
+                     body.state.exposure);
+      if (!body.constants->model.contactBesideSpring)
+        lists.addBroken(place, {spring.first, spring.second, s});
     }
   }
 }
 
-template void beginSubstep(Body<float>&);
-template void beginSubstep(Body<double>&);
-template double accumulateSprings(Body<float>&, double, bool, Books&);
-template double accumulateSprings(Body<double>&, double, bool, Books&);
-template void markCrushed(Body<float>&);
-template void markCrushed(Body<double>&);
+template void beginSubstep(const BodyState<float>&, BodyWork<float>&);
+template void beginSubstep(const BodyState<double>&, BodyWork<double>&);
+template double accumulateSprings(const Body<float>&, BodyWork<float>&, double, bool, Books&);
+template double accumulateSprings(const Body<double>&, BodyWork<double>&, double, bool, Books&);
+template void markCrushed(const Body<float>&, BodyWork<float>&);
+template void markCrushed(const Body<double>&, BodyWork<double>&);
 template void applyBreaks(Body<float>&, std::uint32_t, double, PairLists<float>&, Books&, TickReport&);
 template void applyBreaks(Body<double>&, std::uint32_t, double, PairLists<double>&, Books&, TickReport&);
 

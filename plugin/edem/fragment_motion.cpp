@@ -15,10 +15,11 @@ constexpr double kRestingSpeed = 0.1;
 template <class Real>
 std::uint32_t number(Body<Real>& body) {
   std::uint32_t count = 0;
-  body.motionOf.assign(body.elementCount(), 0);
+  body.work.motionOf.assign(body.elementCount(), 0);
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    body.motionOf[i] = body.fragment[i] == i ? count++ : body.motionOf[body.fragment[i]];
+    if (!body.state.alive[i]) continue;
+    body.work.motionOf[i] =
+        body.state.fragment[i] == i ? count++ : body.work.motionOf[body.state.fragment[i]];
   }
   return count;
 }
@@ -27,19 +28,19 @@ std::uint32_t number(Body<Real>& body) {
 
 template <class Real>
 void beginMotions(Body<Real>& body) {
-  const std::vector<FragmentMotion> before = std::exchange(body.motions, {});
-  body.motions.resize(std::max(number(body), 1u));
-  std::vector<FragmentMotion>& motions = body.motions;
+  const std::vector<FragmentMotion> before = std::exchange(body.work.motions, {});
+  body.work.motions.resize(std::max(number(body), 1u));
+  std::vector<FragmentMotion>& motions = body.work.motions;
   const auto each = [&](auto&& visit) {
     for (std::size_t i = 0; i < body.elementCount(); ++i)
-      if (body.alive[i]) visit(i, motions[body.motionOf[i]], body.worldPosition(i));
+      if (body.state.alive[i]) visit(i, motions[body.work.motionOf[i]], body.worldPosition(i));
   };
   std::vector<double> mass(motions.size());
   each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
-    mass[body.motionOf[i]] += body.mass[i];
-    m.centre += body.mass[i] * x;
-    m.velocity += body.mass[i] * body.velocity[i].template cast<double>();
-    m.fixed = m.fixed || body.anchored[i];
+    mass[body.work.motionOf[i]] += body.constants->mass[i];
+    m.centre += body.constants->mass[i] * x;
+    m.velocity += body.constants->mass[i] * body.state.velocity[i].template cast<double>();
+    m.fixed = m.fixed || body.state.anchored[i];
   });
   for (std::size_t f = 0; f < motions.size(); ++f) {
     if (!(mass[f] > 0)) continue;
@@ -50,11 +51,12 @@ void beginMotions(Body<Real>& body) {
   std::vector<Eigen::Matrix3d> inertia(motions.size(), Eigen::Matrix3d::Zero());
   each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
     const Eigen::Vector3d arm = x - m.centre;
-    m.spin += body.mass[i] * arm.cross(body.velocity[i].template cast<double>()) +
-              body.inertia[i] * body.spin[i].template cast<double>();
-    inertia[body.motionOf[i]] +=
-        (body.mass[i] * arm.squaredNorm() + body.inertia[i]) * Eigen::Matrix3d::Identity() -
-        body.mass[i] * arm * arm.transpose();
+    m.spin += body.constants->mass[i] * arm.cross(body.state.velocity[i].template cast<double>()) +
+              body.constants->inertia[i] * body.state.spin[i].template cast<double>();
+    inertia[body.work.motionOf[i]] +=
+        (body.constants->mass[i] * arm.squaredNorm() + body.constants->inertia[i]) *
+            Eigen::Matrix3d::Identity() -
+        body.constants->mass[i] * arm * arm.transpose();
   });
   for (std::size_t f = 0; f < motions.size(); ++f) {
     FragmentMotion& m = motions[f];
@@ -72,7 +74,7 @@ void beginMotions(Body<Real>& body) {
 template <class Real>
 void moveMotions(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity) {
   assert(kick >= 0 && step >= 0);
-  for (FragmentMotion& m : body.motions) {
+  for (FragmentMotion& m : body.work.motions) {
     m.pressed = std::exchange(m.pressing, 0);
     if (!m.fixed) {
       m.velocity += kick * (m.inverseMass * m.force + gravity);

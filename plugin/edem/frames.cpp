@@ -31,18 +31,21 @@ struct Fit {
 template <class Real, class Visit>
 void visitMoving(const Body<Real>& body, Visit&& visit) {
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i] && body.frameOf[i] > 0 && !body.sleeping[i]) visit(i, body.frameOf[i]);
+    if (body.state.alive[i] && body.state.frameOf[i] > 0 && !body.state.sleeping[i])
+      visit(i, body.state.frameOf[i]);
 }
 
 template <class Real>
 void putInFrame0(Body<Real>& body, std::size_t i, const Frame& was) {
-  const Eigen::Vector3d rest = body.turn * body.restCentred[i];
-  const Eigen::Vector3d u = was.turn * body.restCentred[i] + body.displacement[i].template cast<double>();
-  const Eigen::Quaterniond q = body.rotation[i].template cast<double>() * was.turn * body.turn.conjugate();
-  body.displacement[i] = (was.origin - body.origin + (u - rest)).template cast<Real>();
-  body.rotation[i] = Quat<Real>(q.template cast<Real>());
-  body.rest[i] = rest;
-  body.frameOf[i] = 0;
+  const Eigen::Vector3d rest = body.state.turn * body.constants->restCentred[i];
+  const Eigen::Vector3d u =
+      was.turn * body.constants->restCentred[i] + body.state.displacement[i].template cast<double>();
+  const Eigen::Quaterniond q =
+      body.state.rotation[i].template cast<double>() * was.turn * body.state.turn.conjugate();
+  body.state.displacement[i] = (was.origin - body.state.origin + (u - rest)).template cast<Real>();
+  body.state.rotation[i] = Quat<Real>(q.template cast<Real>());
+  body.work.rest[i] = rest;
+  body.state.frameOf[i] = 0;
 }
 
 }  // namespace
@@ -50,61 +53,64 @@ void putInFrame0(Body<Real>& body, std::size_t i, const Frame& was) {
 template <class Real>
 void turnRest(Body<Real>& body, std::size_t first) {
   std::vector<Eigen::Matrix3d> turns;
-  for (const Frame& frame : body.frames) turns.push_back(frame.turn.toRotationMatrix());
+  for (const Frame& frame : body.state.frames) turns.push_back(frame.turn.toRotationMatrix());
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    const std::uint32_t f = body.frameOf[i];
+    const std::uint32_t f = body.state.frameOf[i];
     if (f < first) continue;
-    body.rest[i] = body.frames[f].origin - body.origin + turns[f] * body.restCentred[i];
+    body.work.rest[i] =
+        body.state.frames[f].origin - body.state.origin + turns[f] * body.constants->restCentred[i];
   }
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    Spring<Real>& spring = body.springs[s];
-    const std::uint32_t f = body.frameOf[spring.first];
-    if (!body.intact[s] || f < first) continue;
-    spring.rest = (turns[f] * body.springRest[s]).template cast<Real>();
-    spring.offset = (turns[f] * body.springOffset[s]).template cast<Real>();
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    Spring<Real>& spring = body.state.springs[s];
+    const std::uint32_t f = body.state.frameOf[spring.first];
+    if (!body.state.intact[s] || f < first) continue;
+    spring.rest = (turns[f] * body.constants->springRest[s]).template cast<Real>();
+    spring.offset = (turns[f] * body.constants->springOffset[s]).template cast<Real>();
   }
 }
 
 template <class Real>
 void splitFrames(Body<Real>& body) {
   std::vector<std::uint8_t> held(body.elementCount(), 0);  // by fragment
-  for (std::size_t s = body.anchorBegin; s < body.springs.size(); ++s)
-    if (body.intact[s]) held[body.fragment[body.springs[s].first]] = 1;
-  const std::vector<Frame> old = std::move(body.frames);
-  body.frames = {{body.origin, body.turn}};
+  for (std::size_t s = body.constants->anchorBegin; s < body.state.springs.size(); ++s)
+    if (body.state.intact[s]) held[body.state.fragment[body.state.springs[s].first]] = 1;
+  const std::vector<Frame> old = std::move(body.state.frames);
+  body.state.frames = {{body.state.origin, body.state.turn}};
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-    const std::uint32_t root = body.fragment[i];  // not above i: its frame is there
-    const Frame& was = old[body.frameOf[i]];
+    const std::uint32_t root = body.state.fragment[i];  // not above i: its frame is there
+    const Frame& was = old[body.state.frameOf[i]];
     if (root == kNoElement || held[root]) {
-      if (body.frameOf[i] > 0) putInFrame0(body, i, was);
+      if (body.state.frameOf[i] > 0) putInFrame0(body, i, was);
     } else if (root == i) {
-      body.frameOf[i] = std::uint32_t(body.frames.size());
-      body.frames.push_back(was);
+      body.state.frameOf[i] = std::uint32_t(body.state.frames.size());
+      body.state.frames.push_back(was);
     } else {
-      body.frameOf[i] = body.frameOf[root];
+      body.state.frameOf[i] = body.state.frameOf[root];
     }
   }
 }
 
 template <class Real>
 void fitFrames(Body<Real>& body) {
-  if (body.frames.size() == 1) return;
-  std::vector<Fit> fits(body.frames.size());
+  if (body.state.frames.size() == 1) return;
+  std::vector<Fit> fits(body.state.frames.size());
   visitMoving(body, [&](std::size_t i, std::uint32_t f) {
-    fits[f].add(body.mass[i], Eigen::Quaterniond(body.rotation[i].template cast<double>()));
+    fits[f].add(body.constants->mass[i], Eigen::Quaterniond(body.state.rotation[i].template cast<double>()));
   });
-  for (std::size_t f = 1; f < fits.size(); ++f) fits[f].turn(body.frames[f].turn);
+  for (std::size_t f = 1; f < fits.size(); ++f) fits[f].turn(body.state.frames[f].turn);
   visitMoving(body, [&](std::size_t i, std::uint32_t f) {
-    const Eigen::Vector3d u = body.displacement[i].template cast<double>();
-    fits[f].shift += body.mass[i] / fits[f].mass * (u + fits[f].turnedBack * body.restCentred[i]);
+    const Eigen::Vector3d u = body.state.displacement[i].template cast<double>();
+    fits[f].shift +=
+        body.constants->mass[i] / fits[f].mass * (u + fits[f].turnedBack * body.constants->restCentred[i]);
   });
-  for (std::size_t f = 1; f < fits.size(); ++f) body.frames[f].origin += fits[f].shift;
+  for (std::size_t f = 1; f < fits.size(); ++f) body.state.frames[f].origin += fits[f].shift;
   visitMoving(body, [&](std::size_t i, std::uint32_t f) {
     const Fit& fit = fits[f];
-    const Eigen::Vector3d u = body.displacement[i].template cast<double>();
-    body.displacement[i] = (u - fit.shift + fit.turnedBack * body.restCentred[i]).template cast<Real>();
-    const Eigen::Quaterniond q = body.rotation[i].template cast<double>() * fit.step.conjugate();
-    body.rotation[i] = Quat<Real>(q.normalized().template cast<Real>());
+    const Eigen::Vector3d u = body.state.displacement[i].template cast<double>();
+    body.state.displacement[i] =
+        (u - fit.shift + fit.turnedBack * body.constants->restCentred[i]).template cast<Real>();
+    const Eigen::Quaterniond q = body.state.rotation[i].template cast<double>() * fit.step.conjugate();
+    body.state.rotation[i] = Quat<Real>(q.normalized().template cast<Real>());
   });
   turnRest(body, 1);
 }

@@ -12,9 +12,10 @@ void pushWhole(Body<Real>& body, std::uint32_t root, const Eigen::Vector3d& velo
                const Eigen::Vector3d& spin, Books& books) {
   const Eigen::Vector3d centre = wholeMotion(body, root).centre;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i] || (root != kNoElement && body.fragment[i] != root)) continue;
+    if (!body.state.alive[i] || (root != kNoElement && body.state.fragment[i] != root)) continue;
     const Eigen::Vector3d arm = body.worldPosition(i) - centre;
-    pushElement(body, i, body.mass[i] * (velocity + spin.cross(arm)), body.inertia[i] * spin, books);
+    pushElement(body, i, body.constants->mass[i] * (velocity + spin.cross(arm)),
+                body.constants->inertia[i] * spin, books);
   }
 }
 
@@ -22,26 +23,26 @@ namespace {
 
 template <class Real>
 double powerOf(const Body<Real>& body, const HostLoad& load) {
-  return load.force.dot(body.velocity[load.element].template cast<double>()) +
-         load.torque.dot(body.spin[load.element].template cast<double>());
+  return load.force.dot(body.state.velocity[load.element].template cast<double>()) +
+         load.torque.dot(body.state.spin[load.element].template cast<double>());
 }
 
 template <class Real>
 bool takes(const Body<Real>& body, const HostLoad& load) {
-  return body.alive[load.element] && !body.sleeping[load.element];
+  return body.state.alive[load.element] && !body.state.sleeping[load.element];
 }
 
 }  // namespace
 
 template <class Real>
 void addHostLoads(Body<Real>& body, double kick, Books& books) {
-  for (const HostLoad& load : body.hostLoads) {
+  for (const HostLoad& load : body.state.hostLoads) {
     if (!takes(body, load)) continue;
     const std::uint32_t i = load.element;
-    body.force[i] += load.force.cast<Real>();
-    body.torque[i] += load.torque.cast<Real>();
-    const Eigen::Vector3d at = body.origin + body.position[i];
-    FragmentMotion& motion = body.motions[body.motionOf[i]];
+    body.work.force[i] += load.force.cast<Real>();
+    body.work.torque[i] += load.torque.cast<Real>();
+    const Eigen::Vector3d at = body.state.origin + body.work.position[i];
+    FragmentMotion& motion = body.work.motions[body.work.motionOf[i]];
     motion.force += load.force;
     motion.torque += (at - motion.centre).cross(load.force) + load.torque;
     books.bullet.push(kick, load.force, at - books.centre, load.torque);
@@ -51,7 +52,7 @@ void addHostLoads(Body<Real>& body, double kick, Books& books) {
 
 template <class Real>
 void bookHostLoads(const Body<Real>& body, double kick, Books& books) {
-  for (const HostLoad& load : body.hostLoads)
+  for (const HostLoad& load : body.state.hostLoads)
     if (takes(body, load)) books.bullet.work.add(0, 0.5 * kick * powerOf(body, load));
 }
 
@@ -64,20 +65,20 @@ void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
   };
   const auto [linear, angular] = momenta();
   const Eigen::Quaterniond turn(by.linear());
-  body.origin = by * body.origin;
-  body.turn = (turn * body.turn).normalized();
-  for (Frame& frame : body.frames) frame = {by * frame.origin, (turn * frame.turn).normalized()};
+  body.state.origin = by * body.state.origin;
+  body.state.turn = (turn * body.state.turn).normalized();
+  for (Frame& frame : body.state.frames) frame = {by * frame.origin, (turn * frame.turn).normalized()};
   if (!by.linear().isIdentity(0)) {
     const Eigen::Matrix<Real, 3, 3> turned = by.linear().cast<Real>();
     const Quat<Real> around = turn.cast<Real>();
-    for (auto* vectors :
-         {&body.displacement, &body.velocity, &body.velocityCarry, &body.spin, &body.parkedAt})
+    for (auto* vectors : {&body.state.displacement, &body.state.velocity, &body.state.velocityCarry,
+                          &body.state.spin, &body.state.parkedAt})
       for (Vec3<Real>& v : *vectors) v = turned * v;
-    for (auto* rotations : {&body.rotation, &body.parkedTurn})
+    for (auto* rotations : {&body.state.rotation, &body.state.parkedTurn})
       for (Quat<Real>& q : *rotations) q = (around * q * around.conjugate()).normalized();
   }
   turnRest(body, 0);
-  beginSubstep(body);
+  beginSubstep(body.state, body.work);
   const auto [linearNow, angularNow] = momenta();
   books.bullet.push(1, linearNow - linear, Eigen::Vector3d::Zero(), angularNow - angular);
   books.linear += linearNow - linear;

@@ -45,24 +45,26 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
   Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero(),
                   spinning = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : body.awake) {
-    if (!body.alive[i]) continue;
-    const Vec3<Real> oldVelocity = body.velocity[i], oldSpin = body.spin[i];
-    body.velocity[i] = addCompensated<Real>(
-        oldVelocity, (kickTime * body.inverseMass[i]) * body.force[i] + fall, body.velocityCarry[i]);
-    body.spin[i] = oldSpin + (kickTime * body.inverseInertia[i]) * body.torque[i];
-    body.displacement[i] += stepTime * body.velocity[i];
-    body.rotation[i] = rotated(body.rotation[i], body.spin[i], stepTime);
+  for (const std::uint32_t i : body.work.awake) {
+    if (!body.state.alive[i]) continue;
+    const Vec3<Real> oldVelocity = body.state.velocity[i], oldSpin = body.state.spin[i];
+    body.state.velocity[i] = addCompensated<Real>(
+        oldVelocity, (kickTime * body.constants->inverseMass[i]) * body.work.force[i] + fall,
+        body.state.velocityCarry[i]);
+    body.state.spin[i] = oldSpin + (kickTime * body.constants->inverseInertia[i]) * body.work.torque[i];
+    body.state.displacement[i] += stepTime * body.state.velocity[i];
+    body.state.rotation[i] = rotated(body.state.rotation[i], body.state.spin[i], stepTime);
     const Vec3<double> moved =
-        body.rest[i] + body.displacement[i].template cast<double>() - listed[i] - drifted;
+        body.work.rest[i] + body.state.displacement[i].template cast<double>() - listed[i] - drifted;
     const Real moved2 = Real(moved.squaredNorm());
     furthest2 = moved2 > furthest2 || !(moved2 == moved2) ? moved2 : furthest2;
 
-    const double m = body.mass[i], inertia = body.inertia[i];
+    const double m = body.constants->mass[i], inertia = body.constants->inertia[i];
     const Eigen::Vector3d v0 = oldVelocity.template cast<double>(),
-                          v1 = body.velocity[i].template cast<double>();
-    const Eigen::Vector3d w0 = oldSpin.template cast<double>(), w1 = body.spin[i].template cast<double>();
-    const Eigen::Vector3d x = body.position[i];
+                          v1 = body.state.velocity[i].template cast<double>();
+    const Eigen::Vector3d w0 = oldSpin.template cast<double>(),
+                          w1 = body.state.spin[i].template cast<double>();
+    const Eigen::Vector3d x = body.work.position[i];
     mass += m;
     before += m * v0;
     after += m * v1;
@@ -70,13 +72,13 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
     angular += x.cross(m * v1);
     spinning += inertia * w1;
     kinetic += 0.5 * (m * v0.dot(v1) + inertia * w0.dot(w1));
-    const Eigen::Vector3d f = body.dampingForce[i].template cast<double>();
-    const Eigen::Vector3d t = body.dampingTorque[i].template cast<double>();
+    const Eigen::Vector3d f = body.work.dampingForce[i].template cast<double>();
+    const Eigen::Vector3d t = body.work.dampingTorque[i].template cast<double>();
     lost += f.dot(v0) + t.dot(w0);
     lostNext += f.dot(v1) + t.dot(w1);
   }
-  const Eigen::Vector3d arm = body.origin - books.centre;
-  books.mass += mass + body.massAsleep;
+  const Eigen::Vector3d arm = body.state.origin - books.centre;
+  books.mass += mass + body.state.massAsleep;
   books.kinetic += kinetic;
   books.linear += after;
   books.angular += arm.cross(after) + angular + spinning;
@@ -91,37 +93,38 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
 template <class Real>
 void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report) {
   assert(brokenBegin <= report.broken.size());
-  for (const std::uint32_t i : body.crushing) {
-    assert(i < body.elementCount() && body.alive[i]);
+  for (const std::uint32_t i : body.work.crushing) {
+    assert(i < body.elementCount() && body.state.alive[i]);
     base::CrushedElement c;
     c.body = body.id;
     c.element = i;
-    c.restCentre = body.asset->positions[i];
+    c.restCentre = body.constants->asset->positions[i];
     c.centre = body.worldPosition(i);
-    c.velocity = body.velocity[i].template cast<double>();
-    c.spin = body.spin[i].template cast<double>();
+    c.velocity = body.state.velocity[i].template cast<double>();
+    c.spin = body.state.spin[i].template cast<double>();
     c.orientation = body.orientation(i);
-    c.mass = body.mass[i];
-    c.inertia = body.inertia[i];
-    c.volume = body.asset->volumes[i];
-    c.radius = body.asset->radius;
-    c.fractureEnergy = double(body.load[i]);
+    c.mass = body.constants->mass[i];
+    c.inertia = body.constants->inertia[i];
+    c.volume = body.constants->asset->volumes[i];
+    c.radius = body.constants->asset->radius;
+    c.fractureEnergy = double(body.work.load[i]);
     for (std::size_t k = brokenBegin; k < report.broken.size(); ++k) {
       const BrokenSpring& b = report.broken[k];
       if (b.body != body.id) continue;
-      const Spring<Real>& s = body.springs[b.spring];
+      const Spring<Real>& s = body.state.springs[b.spring];
       if (s.first != i && s.second != i) continue;
-      const bool both = !body.isAnchor(b.spring) && body.leaving[s.first] && body.leaving[s.second];
+      const bool both = !body.isAnchor(b.spring) && body.work.leaving[s.first] && body.work.leaving[s.second];
       c.releasedEnergy += both ? 0.5 * b.energy : b.energy;
     }
     report.crushed.push_back(c);
   }
-  for (const std::uint32_t i : body.crushing) {
-    const double m = body.mass[i];
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>(),
-                          w = body.spin[i].template cast<double>();
-    const double kinetic = 0.5 * (m * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
-    const Eigen::Vector3d angular = (body.worldPosition(i) - books.centre).cross(m * v) + body.inertia[i] * w;
+  for (const std::uint32_t i : body.work.crushing) {
+    const double m = body.constants->mass[i];
+    const Eigen::Vector3d v = body.state.velocity[i].template cast<double>(),
+                          w = body.state.spin[i].template cast<double>();
+    const double kinetic = 0.5 * (m * v.squaredNorm() + body.constants->inertia[i] * w.squaredNorm());
+    const Eigen::Vector3d angular =
+        (body.worldPosition(i) - books.centre).cross(m * v) + body.constants->inertia[i] * w;
     books.leftMass += m;
     books.leftKinetic += kinetic;
     books.leftLinear += m * v;
@@ -130,9 +133,9 @@ void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, Tick
     books.kinetic -= kinetic;
     books.linear -= m * v;
     books.angular -= angular;
-    body.alive[i] = 0;
-    body.leaving[i] = 0;
-    ++body.crushedCount;
+    body.state.alive[i] = 0;
+    body.work.leaving[i] = 0;
+    ++body.state.crushedCount;
   }
 }
 

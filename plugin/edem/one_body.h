@@ -25,10 +25,10 @@ class OneBody {
   void substep(double step, bool breaking) {
     Body<Real>& b = body();
     m_books.closeStep();
-    beginSubstep(b);
+    beginSubstep(b.state, b.work);
     beginMotions(b);
-    m_lists.build(m_bodies, 0.5 * double(b.radius));
-    m_books.elastic = accumulateSprings(b, step, breaking, m_books);
+    m_lists.build(m_bodies, 0.5 * double(b.constants->radius));
+    m_books.elastic = accumulateSprings(b, b.work, step, breaking, m_books);
     for (PairList<Real>& l : m_lists.lists()) {
       accumulateContacts(l, b, b, {step, step}, m_resting, m_books);
       m_books.elastic += l.elastic;

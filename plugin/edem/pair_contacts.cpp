@@ -13,7 +13,7 @@ constexpr std::size_t kNoRest = ~std::size_t(0);
 
 template <class Real>
 LoadedThing thingOf(const Body<Real>& body, std::uint32_t i, const RestingLoads& resting) {
-  return {fragmentName(body.id, body.fragment[i]), body.motions[body.motionOf[i]].inverseMass,
+  return {fragmentName(body.id, body.state.fragment[i]), body.work.motions[body.work.motionOf[i]].inverseMass,
           resting.gravity()};
 }
 
@@ -37,8 +37,8 @@ struct PairTouch {
 template <class Real>
 Real& contactDistance(const PairEntry& entry, Body<Real>& a, const Body<Real>& b, Real distance, Real speed,
                       Real moved, ContactMemory<Real>& memory) {
-  const Real free = a.radius + b.radius;
-  Real& range = entry.pair == kNoPair ? memory.range : a.range[entry.pair];
+  const Real free = a.constants->radius + b.constants->radius;
+  Real& range = entry.pair == kNoPair ? memory.range : a.state.range[entry.pair];
   range = entry.pair == kNoPair ? contactRange(range, distance, free, speed, moved)
                                 : std::fmin(std::fmax(range, distance), free);
   return range;
@@ -49,7 +49,8 @@ template <class Real>
 Real withheldBetween(const ContactLaw<Real>& law, const Body<Real>& a, std::uint32_t i, const Body<Real>& b,
                      std::uint32_t j, const Vec3<Real>& normal, double step, RestingLoads& resting,
                      PairTouch<Real>& touch) {
-  const FragmentMotion &first = a.motions[a.motionOf[i]], &second = b.motions[b.motionOf[j]];
+  const FragmentMotion &first = a.work.motions[a.work.motionOf[i]],
+                       &second = b.work.motions[b.work.motionOf[j]];
   if (&first == &second) return 0;
   const double parting =
       (second.velocityAt(touch.at) - first.velocityAt(touch.at)).dot(normal.template cast<double>());
@@ -69,22 +70,22 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   const PairEntry& entry = list.entries[k];
   const std::uint32_t i = entry.first, j = entry.second;
   assert(i < a.elementCount() && j < b.elementCount());
-  if (!a.alive[i] || !b.alive[j]) return touch;
-  const Vec3<Real> between = ((b.position[j] - a.position[i]) + offset).template cast<Real>();
+  if (!a.state.alive[i] || !b.state.alive[j]) return touch;
+  const Vec3<Real> between = ((b.work.position[j] - a.work.position[i]) + offset).template cast<Real>();
   const Real distance2 = between.squaredNorm();
-  const Real free = a.radius + b.radius;
+  const Real free = a.constants->radius + b.constants->radius;
   if (distance2 >= free * free) {
-    if (entry.pair != kNoPair) a.range[entry.pair] = free;
+    if (entry.pair != kNoPair) a.state.range[entry.pair] = free;
     memory.range = 0;
     if (!entry.touching) return touch;
   }
   const Real distance = std::sqrt(distance2);
-  touch.armFirst = between * (a.radius / free);
-  touch.armSecond = -between * (b.radius / free);
+  touch.armFirst = between * (a.constants->radius / free);
+  touch.armSecond = -between * (b.constants->radius / free);
   ContactMotion<Real> motion;
-  motion.approach =
-      b.velocity[j] + b.spin[j].cross(touch.armSecond) - a.velocity[i] - a.spin[i].cross(touch.armFirst);
-  motion.spin = b.spin[j] - a.spin[i];
+  motion.approach = b.state.velocity[j] + b.state.spin[j].cross(touch.armSecond) - a.state.velocity[i] -
+                    a.state.spin[i].cross(touch.armFirst);
+  motion.spin = b.state.spin[j] - a.state.spin[i];
   Real* range = nullptr;
   if (distance < free) {
     range = &contactDistance(entry, a, b, distance, motion.approach.norm(), moved, memory);
@@ -96,7 +97,7 @@ PairTouch<Real> touchPair(const PairList<Real>& list, std::size_t k, const Vec3<
   }
   touch.touches = true;
   motion.normal = between / distance;
-  touch.at = a.origin + a.position[i] + touch.armFirst.template cast<double>();
+  touch.at = a.state.origin + a.work.position[i] + touch.armFirst.template cast<double>();
   motion.withheld = withheldBetween(list.law, a, i, b, j, motion.normal, steps.next, resting, touch);
   const Real speed = -motion.approach.dot(motion.normal);
   if (moved > Real(0)) memory.onset = entry.touching ? Real(1) : onsetShare(motion.overlap, speed, moved);
@@ -118,14 +119,14 @@ void addTouch(const PairTouch<Real>& touch, Body<Real>& a, std::uint32_t i, Body
   const Vec3<Real> all = sign * touch.load.elastic + damping;
   const Vec3<Real> dampingTorque = sign * touch.load.dampingTorque;
   const Vec3<Real> torque = sign * touch.load.elasticTorque + dampingTorque;
-  a.force[i] -= all;
-  b.force[j] += all;
-  a.dampingForce[i] -= damping;
-  b.dampingForce[j] += damping;
-  a.torque[i] -= touch.armFirst.cross(all) + torque;
-  b.torque[j] += touch.armSecond.cross(all) + torque;
-  a.dampingTorque[i] -= touch.armFirst.cross(damping) + dampingTorque;
-  b.dampingTorque[j] += touch.armSecond.cross(damping) + dampingTorque;
+  a.work.force[i] -= all;
+  b.work.force[j] += all;
+  a.work.dampingForce[i] -= damping;
+  b.work.dampingForce[j] += damping;
+  a.work.torque[i] -= touch.armFirst.cross(all) + torque;
+  b.work.torque[j] += touch.armSecond.cross(all) + torque;
+  a.work.dampingTorque[i] -= touch.armFirst.cross(damping) + dampingTorque;
+  b.work.dampingTorque[j] += touch.armSecond.cross(damping) + dampingTorque;
 }
 
 }  // namespace
@@ -134,13 +135,13 @@ template <class Real>
 void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
                         RestingLoads& resting, Books& books) {
   assert(list.memory.size() == list.entries.size() && steps.moved >= 0 && steps.next >= 0);
-  const Vec3<double> offset = b.origin - a.origin;
+  const Vec3<double> offset = b.state.origin - a.state.origin;
   list.elastic = 0;
   double slipped = 0;
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
     ContactMemory<Real>& memory = list.memory[k];
-    if (a.sleeping[entry.first] || b.sleeping[entry.second]) {  // both, or they do not touch
+    if (a.state.sleeping[entry.first] || b.state.sleeping[entry.second]) {  // both, or they do not touch
       list.elastic += entry.touching ? double(memory.energy) : 0;
       continue;
     }
@@ -154,8 +155,8 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
       continue;
     }
     if (!std::exchange(entry.touching, true)) {
-      ++a.touchesBegun[entry.first];
-      ++b.touchesBegun[entry.second];
+      ++a.work.touchesBegun[entry.first];
+      ++b.work.touchesBegun[entry.second];
     }
     memory.energy = touch.load.energy;
     list.elastic += double(memory.energy);
@@ -165,8 +166,8 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
     const Eigen::Vector3d torque =
         (touch.load.elasticTorque + touch.load.dampingTorque).template cast<double>();
     if (touch.resting == kNoRest) continue;
-    pushMotion(a.motions[a.motionOf[entry.first]], touch.at, -force, -torque);
-    pushMotion(b.motions[b.motionOf[entry.second]], touch.at, force, torque);
+    pushMotion(a.work.motions[a.work.motionOf[entry.first]], touch.at, -force, -torque);
+    pushMotion(b.work.motions[b.work.motionOf[entry.second]], touch.at, force, torque);
     resting.push(touch.resting, touch.full);
   }
   books.dissipated.add(-slipped, 0);
@@ -175,10 +176,10 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
 template <class Real>
 void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
                      RestingLoads& resting, Books& books) {
-  const Vec3<double> offset = b.origin - a.origin;
+  const Vec3<double> offset = b.state.origin - a.state.origin;
   for (std::size_t k = 0; k < list.entries.size(); ++k) {
     PairEntry& entry = list.entries[k];
-    if (!entry.touching || (!a.leaving[entry.first] && !b.leaving[entry.second])) continue;
+    if (!entry.touching || (!a.work.leaving[entry.first] && !b.work.leaving[entry.second])) continue;
     const PairTouch<Real> touch = touchPair(list, k, offset, a, b, Steps{0, step}, resting, list.memory[k]);
     if (!touch.touches) continue;
     addTouch(touch, a, entry.first, b, entry.second, Real(-1));

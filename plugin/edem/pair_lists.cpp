@@ -11,8 +11,8 @@ namespace {
 // The pair's place in Body::range, or kNoPair for two elements that are free of each other.
 template <class Real>
 std::uint32_t pairOf(const Body<Real>& body, std::uint32_t i, std::uint32_t j) {
-  const auto begin = body.pairs.begin() + body.pairOffsets[i],
-             end = body.pairs.begin() + body.pairOffsets[i + 1];
+  const auto begin = body.constants->pairs.begin() + body.constants->pairOffsets[i],
+             end = body.constants->pairs.begin() + body.constants->pairOffsets[i + 1];
   const auto found = std::lower_bound(
       begin, end, j, [](const PairIndex& p, std::uint32_t partner) { return p.partner < partner; });
   return found != end && found->partner == j ? found->pair : kNoPair;
@@ -43,11 +43,11 @@ void remember(PairList<Real>& list, const PairList<Real>& old) {
 
 template <class Real>
 void PairLists<Real>::grid(const Body<Real>& body, ElementGrid& out) const {
-  out.listed = body.position;
-  out.grid.build(out.listed, body.alive, 2 * double(body.radius) + m_skin);
+  out.listed = body.work.position;
+  out.grid.build(out.listed, body.state.alive, 2 * double(body.constants->radius) + m_skin);
   out.bounds.setEmpty();
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i] && !body.parked) out.bounds.extend(body.origin + out.listed[i]);
+    if (body.state.alive[i] && !body.state.parked) out.bounds.extend(body.state.origin + out.listed[i]);
 }
 
 // The old list of two bodies, or a new one.
@@ -65,7 +65,7 @@ PairList<Real> PairLists<Real>::take(const Body<Real>& a, const Body<Real>& b, s
   list.second = placeB;
   list.firstId = a.id;
   list.secondId = b.id;
-  list.law = contactLaw(a.contact, b.contact).template cast<Real>();
+  list.law = contactLaw(a.constants->contact, b.constants->contact).template cast<Real>();
   return list;
 }
 
@@ -79,19 +79,19 @@ void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies,
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     grid(*bodies[b], m_grids[b]);
     PairList<Real> list = take(*bodies[b], *bodies[b], b, b);
-    if (!bodies[b]->asleep) listWithin(*bodies[b], b, list);
+    if (!bodies[b]->state.asleep) listWithin(*bodies[b], b, list);
     m_lists.push_back(std::move(list));
   }
   for (std::uint32_t a = 0; a < bodies.size(); ++a) {
     for (std::uint32_t b = a + 1; b < bodies.size(); ++b) {
-      const double reach = double(bodies[a]->radius) + double(bodies[b]->radius) + skin;
+      const double reach = double(bodies[a]->constants->radius) + double(bodies[b]->constants->radius) + skin;
       Eigen::AlignedBox3d grown = m_grids[a].bounds;
       if (grown.isEmpty() || m_grids[b].bounds.isEmpty()) continue;
       grown.min().array() -= reach;
       grown.max().array() += reach;
       if (!grown.intersects(m_grids[b].bounds)) continue;
       PairList<Real> list = take(*bodies[a], *bodies[b], a, b);
-      if (!bodies[a]->asleep || !bodies[b]->asleep) listBetween(*bodies[a], *bodies[b], list);
+      if (!bodies[a]->state.asleep || !bodies[b]->state.asleep) listBetween(*bodies[a], *bodies[b], list);
       m_lists.push_back(std::move(list));
     }
   }
@@ -100,26 +100,26 @@ void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies,
 template <class Real>
 void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list) {
   const ElementGrid& own = m_grids[place];
-  const double distance = 2 * double(body.radius) + m_skin;
+  const double distance = 2 * double(body.constants->radius) + m_skin;
   const double distance2 = distance * distance;
   const PairList<Real> old = list;
   list.entries.clear();
   // Pairs that sleep are as they were.
   for (const PairEntry& e : old.entries)
-    if (body.sleeping[e.first] && body.sleeping[e.second]) list.entries.push_back(e);
-  for (const std::uint32_t i : body.awake) {
-    if (!body.alive[i]) continue;
+    if (body.state.sleeping[e.first] && body.state.sleeping[e.second]) list.entries.push_back(e);
+  for (const std::uint32_t i : body.work.awake) {
+    if (!body.state.alive[i]) continue;
     const auto cell = own.grid.cellOf(own.listed[i]);
     for (int z = -1; z <= 1; ++z) {
       for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
           own.grid.visitCell(cell + Eigen::Vector3i(x, y, z), [&](std::uint32_t j) {
-            if (j == i || (j < i && !body.sleeping[j])) return;  // the other finds it
+            if (j == i || (j < i && !body.state.sleeping[j])) return;  // the other finds it
             if ((own.listed[j] - own.listed[i]).squaredNorm() >= distance2) return;
             const std::uint32_t first = std::min(i, j), second = std::max(i, j);
             const std::uint32_t pair = pairOf(body, first, second);
-            const bool joined = pair < body.anchorBegin && body.intact[pair];
-            if (joined && !body.model.contactBesideSpring) return;
+            const bool joined = pair < body.constants->anchorBegin && body.state.intact[pair];
+            if (joined && !body.constants->model.contactBesideSpring) return;
             list.entries.push_back({first, second, pair});
           });
         }
@@ -132,14 +132,15 @@ void PairLists<Real>::listWithin(const Body<Real>& body, std::uint32_t place, Pa
 template <class Real>
 void PairLists<Real>::listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list) {
   const ElementGrid &gridA = m_grids[list.first], &gridB = m_grids[list.second];
-  const Vec3<double> offset = a.origin - b.origin;  // a's coordinates -> b's
-  const double distance = double(a.radius) + double(b.radius) + m_skin;
+  const Vec3<double> offset = a.state.origin - b.state.origin;  // a's coordinates -> b's
+  const double distance = double(a.constants->radius) + double(b.constants->radius) + m_skin;
   const Vec3<double> reach = Vec3<double>::Constant(distance);
   const PairList<Real> old = list;
   list.entries.clear();
   for (std::uint32_t i = 0; i < a.elementCount(); ++i) {
-    if (!a.alive[i]) continue;
-    if (gridB.bounds.squaredExteriorDistance(a.origin + gridA.listed[i]) > distance * distance) continue;
+    if (!a.state.alive[i]) continue;
+    if (gridB.bounds.squaredExteriorDistance(a.state.origin + gridA.listed[i]) > distance * distance)
+      continue;
     const Vec3<double> p = gridA.listed[i] + offset;
     gridB.grid.visitBox(p - reach, p + reach, [&](std::uint32_t j) {
       if ((gridB.listed[j] - p).squaredNorm() < distance * distance) list.entries.push_back({i, j, kNoPair});

@@ -20,12 +20,14 @@ template <class Real>
 Motion motionOf(const Body<Real>& body, const Eigen::Vector3d& about) {
   Motion all;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    if (!body.alive[i]) continue;
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>(),
-                          w = body.spin[i].template cast<double>();
-    all.linear += body.mass[i] * v;
-    all.angular += (body.worldPosition(i) - about).cross(body.mass[i] * v) + body.inertia[i] * w;
-    all.kinetic += 0.5 * (body.mass[i] * v.squaredNorm() + body.inertia[i] * w.squaredNorm());
+    if (!body.state.alive[i]) continue;
+    const Eigen::Vector3d v = body.state.velocity[i].template cast<double>(),
+                          w = body.state.spin[i].template cast<double>();
+    all.linear += body.constants->mass[i] * v;
+    all.angular +=
+        (body.worldPosition(i) - about).cross(body.constants->mass[i] * v) + body.constants->inertia[i] * w;
+    all.kinetic +=
+        0.5 * (body.constants->mass[i] * v.squaredNorm() + body.constants->inertia[i] * w.squaredNorm());
   }
   return all;
 }
@@ -43,8 +45,8 @@ void bookHost(const Motion& before, const Motion& after, Books& books) {
 template <class Real>
 Eigen::Isometry3d placeOf(const Body<Real>& body) {
   // The frame's origin is the centre of mass, asset axes: that of the rest positions.
-  const Eigen::Vector3d centre = body.asset->positions[0] - body.restCentred[0];
-  const Frame& frame = body.frames.back();
+  const Eigen::Vector3d centre = body.constants->asset->positions[0] - body.constants->restCentred[0];
+  const Frame& frame = body.state.frames.back();
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
   place.linear() = frame.turn.toRotationMatrix();
   place.translation() = frame.origin - frame.turn * centre;
@@ -54,11 +56,11 @@ Eigen::Isometry3d placeOf(const Body<Real>& body) {
 // Cracked pairs touch in that shape without force: it may not push itself apart later.
 template <class Real>
 void closeCracks(Body<Real>& body) {
-  for (std::size_t s = 0; s < body.anchorBegin; ++s) {
-    if (body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
-    const double apart = (body.position[spring.second] - body.position[spring.first]).norm();
-    body.range[s] = std::min(body.range[s], Real(apart));
+  for (std::size_t s = 0; s < body.constants->anchorBegin; ++s) {
+    if (body.state.intact[s]) continue;
+    const Spring<Real>& spring = body.state.springs[s];
+    const double apart = (body.work.position[spring.second] - body.work.position[spring.first]).norm();
+    body.state.range[s] = std::min(body.state.range[s], Real(apart));
   }
 }
 
@@ -66,17 +68,17 @@ void closeCracks(Body<Real>& body) {
 // with cracks, which have moved its balance, the one that it has.
 template <class Real>
 void takeShape(Body<Real>& body) {
-  if (body.anchorsIntact > 0 && body.parkedAt.empty()) {
-    body.parkedAt = body.displacement;
-    body.parkedTurn = body.rotation;
-  } else if (body.anchorsIntact > 0 && body.brokenCount == 0) {
-    body.displacement = body.parkedAt;
-    body.rotation = body.parkedTurn;
-  } else if (body.anchorsIntact == 0) {
-    for (Vec3<Real>& u : body.displacement) u.setZero();
-    for (Quat<Real>& q : body.rotation) q.setIdentity();
+  if (body.state.anchorsIntact > 0 && body.state.parkedAt.empty()) {
+    body.state.parkedAt = body.state.displacement;
+    body.state.parkedTurn = body.state.rotation;
+  } else if (body.state.anchorsIntact > 0 && body.state.brokenCount == 0) {
+    body.state.displacement = body.state.parkedAt;
+    body.state.rotation = body.state.parkedTurn;
+  } else if (body.state.anchorsIntact == 0) {
+    for (Vec3<Real>& u : body.state.displacement) u.setZero();
+    for (Quat<Real>& q : body.state.rotation) q.setIdentity();
   }
-  beginSubstep(body);
+  beginSubstep(body.state, body.work);
   closeCracks(body);
 }
 
@@ -84,32 +86,33 @@ void takeShape(Body<Real>& body) {
 
 template <class Real>
 bool mayPark(const Body<Real>& body) {
-  const std::size_t anchors = body.springs.size() - body.anchorBegin;
-  return !body.asleep && body.fragmentCount == 1 && body.crushedCount == 0 && body.anchorsIntact == anchors;
+  const std::size_t anchors = body.state.springs.size() - body.constants->anchorBegin;
+  return !body.state.asleep && body.state.fragmentCount == 1 && body.state.crushedCount == 0 &&
+         body.state.anchorsIntact == anchors;
 }
 
 template <class Real>
 ParkedMotion park(Body<Real>& body, Books& books) {
-  assert(!body.asleep && mayPark(body));
+  assert(!body.state.asleep && mayPark(body));
   const Motion before = motionOf(body, books.centre);
   const double elastic = elasticOf(body);
   takeShape(body);
-  body.sleepingElastic = elasticOf(body);
+  body.state.sleepingElastic = elasticOf(body);
   ParkedMotion out;
   out.place = placeOf(body);
   Motion whole = before;
   whole.kinetic = 0;
-  if (body.anchorsIntact == 0) {
+  if (body.state.anchorsIntact == 0) {
     const RigidMotion rest = rigidMotions(body).begin()->second;
     out.velocity = before.linear / rest.mass;
     out.angularMomentum = before.angular - (rest.centre - books.centre).cross(before.linear);
     whole.kinetic = 0.5 * (before.linear.dot(out.velocity) +
                            out.angularMomentum.dot(rest.inertia.ldlt().solve(out.angularMomentum)));
   }
-  books.massDamped += before.kinetic - whole.kinetic + elastic - body.sleepingElastic;
+  books.massDamped += before.kinetic - whole.kinetic + elastic - body.state.sleepingElastic;
   books.kinetic += whole.kinetic - before.kinetic;
-  books.elastic += body.sleepingElastic - elastic;
-  if (body.anchorsIntact == 0) {
+  books.elastic += body.state.sleepingElastic - elastic;
+  if (body.state.anchorsIntact == 0) {
     bookHost(whole, {}, books);
   } else {
     books.anchors.push(1, -before.linear, Eigen::Vector3d::Zero(), -before.angular);
@@ -117,36 +120,36 @@ ParkedMotion park(Body<Real>& body, Books& books) {
     books.angular -= before.angular;
   }
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.velocity[i].setZero();
-    body.velocityCarry[i].setZero();
-    body.spin[i].setZero();
+    body.state.velocity[i].setZero();
+    body.state.velocityCarry[i].setZero();
+    body.state.spin[i].setZero();
   }
-  body.asleep = body.parked = true;
+  body.state.asleep = body.state.parked = true;
   return out;
 }
 
 template <class Real>
 void placeParked(Body<Real>& body, const Eigen::Isometry3d& place) {
-  assert(body.parked && body.frames.size() <= 2);
-  if (body.frames.size() < 2) return;
+  assert(body.state.parked && body.state.frames.size() <= 2);
+  if (body.state.frames.size() < 2) return;
   // The frame's origin is the centre of mass, asset axes: that of the rest positions.
-  const Eigen::Vector3d centre = body.asset->positions[0] - body.restCentred[0];
-  body.frames[1] = {place * centre, Eigen::Quaterniond(place.linear()).normalized()};
+  const Eigen::Vector3d centre = body.constants->asset->positions[0] - body.constants->restCentred[0];
+  body.state.frames[1] = {place * centre, Eigen::Quaterniond(place.linear()).normalized()};
 }
 
 template <class Real>
 void unpark(Body<Real>& body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& angularMomentum,
             Books& books) {
-  assert(body.parked);
-  body.asleep = body.parked = false;
+  assert(body.state.parked);
+  body.state.asleep = body.state.parked = false;
   turnRest(body, 1);
-  beginSubstep(body);
+  beginSubstep(body.state, body.work);
   const RigidMotion whole = rigidMotions(body).begin()->second;
   const Eigen::Vector3d spin = whole.inertia.ldlt().solve(angularMomentum);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     const Eigen::Vector3d v = velocity + spin.cross(body.worldPosition(i) - whole.centre);
-    body.velocity[i] = v.template cast<Real>();
-    body.spin[i] = spin.template cast<Real>();
+    body.state.velocity[i] = v.template cast<Real>();
+    body.state.spin[i] = spin.template cast<Real>();
   }
   bookHost({}, motionOf(body, books.centre), books);
 }

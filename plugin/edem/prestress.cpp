@@ -45,10 +45,10 @@ std::string text(const char* format, ...) {
 template <class Real>
 bool everyFragmentAnchored(const Body<Real>& body) {
   std::vector<std::uint8_t> held(body.elementCount(), 0);
-  for (std::size_t a = body.anchorBegin; a < body.springs.size(); ++a)
-    if (body.intact[a]) held[body.fragment[body.springs[a].first]] = 1;
+  for (std::size_t a = body.constants->anchorBegin; a < body.state.springs.size(); ++a)
+    if (body.state.intact[a]) held[body.state.fragment[body.state.springs[a].first]] = 1;
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.alive[i] && !held[body.fragment[i]]) return false;
+    if (body.state.alive[i] && !held[body.state.fragment[i]]) return false;
   return true;
 }
 
@@ -64,22 +64,23 @@ struct Problem {
 template <class Real>
 Problem problemOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
   Problem p;
-  p.stiffness.points = body.restCentred;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
+  p.stiffness.points = body.constants->restCentred;
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    if (!body.state.intact[s]) continue;
+    const Spring<Real>& spring = body.state.springs[s];
     p.stiffness.links.push_back({spring.first, body.isAnchor(s) ? kNoElement : spring.second,
-                                 double(spring.stiffness), double(spring.rotational), body.springRest[s],
-                                 body.springOffset[s], 0.5 * body.springRest[s] + body.springOffset[s],
-                                 0.5 * body.springRest[s] - body.springOffset[s]});
+                                 double(spring.stiffness), double(spring.rotational),
+                                 body.constants->springRest[s], body.constants->springOffset[s],
+                                 0.5 * body.constants->springRest[s] + body.constants->springOffset[s],
+                                 0.5 * body.constants->springRest[s] - body.constants->springOffset[s]});
   }
   setShift(p.stiffness);
-  p.mass = body.mass;
+  p.mass = body.constants->mass;
   for (std::size_t i = 0; i < p.mass.size(); ++i)
-    if (!body.alive[i]) p.mass[i] = 0;
-  p.radius = double(body.radius);
+    if (!body.state.alive[i]) p.mass[i] = 0;
+  p.radius = double(body.constants->radius);
   p.gravity = gravity;
-  p.size = body.asset->diagonal();
+  p.size = body.constants->asset->diagonal();
   return p;
 }
 
@@ -216,31 +217,32 @@ PrestressResult solve(Problem p, RestMethod method, AssetRest& rest) {
 
 template <class Real>
 void write(Body<Real>& body, const AssetRest& rest) {
-  const Quat<double> turn(body.turn);
+  const Quat<double> turn(body.state.turn);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.displacement[i] = (turn * rest.displacements[i]).template cast<Real>();
-    body.rotation[i] = (turn * rest.rotations[i] * turn.conjugate()).template cast<Real>();
+    body.state.displacement[i] = (turn * rest.displacements[i]).template cast<Real>();
+    body.state.rotation[i] = (turn * rest.rotations[i] * turn.conjugate()).template cast<Real>();
   }
 }
 
 template <class Real>
 bool isWhole(const Body<Real>& body) {
-  return body.brokenCount == 0 && body.crushedCount == 0;
+  return body.state.brokenCount == 0 && body.state.crushedCount == 0;
 }
 
 template <class Real>
 StaticRestKey keyOf(const Body<Real>& body, const Eigen::Vector3d& gravity) {
   // Adding 0 makes -0 the same as 0.
-  return {(body.turn.conjugate() * gravity).array() + 0.0, body.material.youngsModulus, body.material.density,
-          body.model.rotationalStiffness, std::is_same_v<Real, float> ? Precision::Float : Precision::Double};
+  return {(body.state.turn.conjugate() * gravity).array() + 0.0, body.constants->material.youngsModulus,
+          body.constants->material.density, body.constants->model.rotationalStiffness,
+          std::is_same_v<Real, float> ? Precision::Float : Precision::Double};
 }
 
 // What must be so before any state is looked for; true if it is.
 template <class Real>
 bool canStand(const Body<Real>& body, const Eigen::Vector3d& gravity, PrestressResult& result) {
-  if (body.anchorsIntact == 0 || !everyFragmentAnchored(body)) {
+  if (body.state.anchorsIntact == 0 || !everyFragmentAnchored(body)) {
     result.outcome = PrestressOutcome::NotAnchored;
-    result.reason = body.anchorsIntact == 0 ? "it has no anchors" : "a part of it hangs on no anchor";
+    result.reason = body.state.anchorsIntact == 0 ? "it has no anchors" : "a part of it hangs on no anchor";
     return false;
   }
   return gravity.squaredNorm() > 0;
@@ -267,12 +269,12 @@ template <class Real>
 PrestressResult findStanding(const Body<Real>& body, const StaticRestKey& key, RestMethod method,
                              AssetRest& rest) {
   Problem p = problemOf(body, key.gravity);
-  rest.key = hashOf(key, *body.asset);
+  rest.key = hashOf(key, *body.constants->asset);
   PrestressResult known;
-  if (body.asset->rest && isWhole(body)) {
-    known = kept(p, *body.asset, rest.key);
+  if (body.constants->asset->rest && isWhole(body)) {
+    known = kept(p, *body.constants->asset, rest.key);
     if (known.applied()) {
-      rest = *body.asset->rest;
+      rest = *body.constants->asset->rest;
       return known;
     }
   }
@@ -299,7 +301,7 @@ PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, Stat
   StaticRestCache::Entry entry;
   entry.key = keyOf(body, gravity);
   if (!isWhole(body)) cache = nullptr;
-  if (const auto* known = cache ? cache->find(body.asset, entry.key) : nullptr) {
+  if (const auto* known = cache ? cache->find(body.constants->asset, entry.key) : nullptr) {
     result = known->result;
     if (result.outcome != PrestressOutcome::Done) return result;
     write(body, known->rest);
@@ -310,7 +312,7 @@ PrestressResult prestress(Body<Real>& body, const Eigen::Vector3d& gravity, Stat
   if (result.applied()) write(body, entry.rest);
   if (!cache || result.outcome == PrestressOutcome::Kept) return result;
   if (!result.applied()) entry.rest = {};
-  entry.asset = body.asset;
+  entry.asset = body.constants->asset;
   entry.result = result;
   entry.result.refusal.clear();  // said once
   cache->add(std::move(entry));

@@ -84,7 +84,7 @@ template <class Real>
 void RigidContacts<Real>::endContacts(Bodies bodies) {
   const auto asleep = [&](const Kept& k) {
     return std::any_of(bodies.begin(), bodies.end(), [&k](const auto& b) {
-      return b->id == k.body && (b->asleep || b->sleeping[k.element]);
+      return b->id == k.body && (b->state.asleep || b->state.sleeping[k.element]);
     });
   };
   std::erase_if(m_kept, [&](const Kept& k) {
@@ -123,11 +123,11 @@ void RigidContacts<Real>::build(Bodies bodies, const PairLists<Real>& lists) {
     m_states[p].listedPosition = m_proxies[p].position;
     m_states[p].listedOrientation = m_proxies[p].orientation;
     for (std::uint32_t b = 0; b < bodies.size(); ++b)
-      if (!bodies[b]->asleep) listNear(p, b, *bodies[b], lists);
+      if (!bodies[b]->state.asleep) listNear(p, b, *bodies[b], lists);
   }
   endContacts(bodies);
   m_sides.clear();
-  for (const auto& body : bodies) m_sides.push_back(body->contact);
+  for (const auto& body : bodies) m_sides.push_back(body->constants->contact);
   for (RigidContact& c : m_contacts) c.exposed = -1;
   weigh(bodies);
 }
@@ -156,14 +156,14 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
   box = grown(box.intersection(own.bounds), 0.25 * lists.skin());
 
   const auto consider = [&](std::uint32_t i) {
-    if (!body.alive[i]) return;
-    if (body.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
-    const Eigen::Vector3d x = body.origin + body.position[i];
-    const double near = body.cells ? body.cells->reach[i] + away(lists) : reach;
+    if (!body.state.alive[i]) return;
+    if (body.state.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
+    const Eigen::Vector3d x = body.state.origin + body.work.position[i];
+    const double near = body.constants->cells ? body.constants->cells->reach[i] + away(lists) : reach;
     const double distance = nearest(proxy, x, near).distance;
     if (distance < near) visit(i, x, distance);
   };
-  const Vec3<double> low = box.min() - body.origin, high = box.max() - body.origin;
+  const Vec3<double> low = box.min() - body.state.origin, high = box.max() - body.state.origin;
   if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
     for (std::uint32_t i = 0; i < body.elementCount(); ++i) consider(i);
   } else {
@@ -177,17 +177,17 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
   const RigidProxy& proxy = m_proxies[p];
   const std::size_t begin = m_contacts.size();
   visitNear(p, place, body, lists, [&](std::uint32_t i, const Eigen::Vector3d& x, double distance) {
-    if (body.sleeping[i]) return;
+    if (body.state.sleeping[i]) return;
     RigidContact candidate;
     candidate.proxy = p;
     candidate.body = place;
     candidate.element = i;
-    if (body.cells) {
+    if (body.constants->cells) {
       const Eigen::Vector3d at = proxy.orientation.conjugate() * (x - proxy.position);
-      const double size = body.cells->reach[i];
-      candidate.edges = edgeWeights(proxy, *body.cells, at, size, size + away(lists));
+      const double size = body.constants->cells->reach[i];
+      candidate.edges = edgeWeights(proxy, *body.constants->cells, at, size, size + away(lists));
       candidate.balls = candidate.edges + ballWeights(proxy, at, size + away(lists));
-      candidate.core = distance < body.cells->core[i] + away(lists);
+      candidate.core = distance < body.constants->cells->core[i] + away(lists);
     }
     remember(candidate);
     m_contacts.push_back(candidate);
@@ -201,9 +201,9 @@ void RigidContacts<Real>::visitDisturbed(Bodies bodies, const PairLists<Real>& l
                                          const VisitElement& visit) const {
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     const Body<Real>& body = *bodies[b];
-    if (body.sleepingCount == 0 || body.asleep) continue;
+    if (body.state.sleepingCount == 0 || body.state.asleep) continue;
     const auto visitSleeping = [&](std::uint32_t i) {
-      if (body.sleeping[i]) visit(b, i);
+      if (body.state.sleeping[i]) visit(b, i);
     };
     for (std::uint32_t p = 0; p < m_proxies.size(); ++p)
       if (!m_states[p].still)
@@ -228,10 +228,10 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
   bool same = true;
   for (RigidContact& c : m_contacts) {
     const Body<Real>& body = *bodies[c.body];
-    if (!body.cells) {
+    if (!body.constants->cells) {
       same = same && c.weight == 1;
       c.weight = 1;
-    } else if (c.exposed != body.exposure.area[c.element]) {
+    } else if (c.exposed != body.state.exposure.area[c.element]) {
       same = false;
       weighFaces(c, body, m_proxies[c.proxy], m_faces);
     }
@@ -284,10 +284,10 @@ template <class Real>
 void RigidContacts<Real>::findAllCorners(Bodies bodies, CornerHits& corners) {
   corners.clear();
   for (const RigidContact& c : m_contacts) {
-    if (!bodies[c.body]->cells || !(c.balls > 0)) continue;
+    if (!bodies[c.body]->constants->cells || !(c.balls > 0)) continue;
     findCorners(*bodies[c.body], c.element, m_proxies[c.proxy], m_faces);
     const Body<Real>& body = *bodies[c.body];
-    const double favour = kStays * std::sqrt(body.cells->unit);
+    const double favour = kStays * std::sqrt(body.constants->cells->unit);
     corners.add(c.proxy, placeOf(c), m_faces.hits(), [&](const FaceHit& hit) {
       return hit.corner.edge != 0 && m_states[c.proxy].corners.wasIn(hit.corner, body.id, c.element) ? favour
                                                                                                      : 0;
@@ -325,10 +325,10 @@ template <class Real>
 void RigidContacts<Real>::apply(const Push& push, Body<Real>& body, double sign) {
   const auto to = [sign](const Eigen::Vector3d& v) -> Vec3<Real> { return (sign * v).cast<Real>(); };
   const RigidTouch& t = push.touch;
-  body.force[push.element] += to(t.force);
-  body.torque[push.element] += to(t.torque);
-  body.dampingForce[push.element] += to(t.dampingForce);
-  body.dampingTorque[push.element] += to(t.dampingTorque);
+  body.work.force[push.element] += to(t.force);
+  body.work.torque[push.element] += to(t.torque);
+  body.work.dampingForce[push.element] += to(t.dampingForce);
+  body.work.dampingTorque[push.element] += to(t.dampingTorque);
   RigidState& state = m_states[push.proxy];
   const Eigen::Vector3d arm = t.x - m_proxies[push.proxy].position;
   state.force -= sign * t.force;
@@ -342,8 +342,8 @@ void RigidContacts<Real>::apply(const Push& push, Body<Real>& body, double sign)
 // What an element gets of a push, by its velocity as it is [W].
 template <class Real>
 double RigidContacts<Real>::pushPower(const Push& push, const Body<Real>& body) const {
-  return push.touch.force.dot(body.velocity[push.element].template cast<double>()) +
-         push.touch.torque.dot(body.spin[push.element].template cast<double>());
+  return push.touch.force.dot(body.state.velocity[push.element].template cast<double>()) +
+         push.touch.torque.dot(body.state.spin[push.element].template cast<double>());
 }
 
 // Between two ticks the host's own contacts and joints move a body. Its contacts end the last step where that
@@ -388,7 +388,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     Body<Real>& body = *bodies[c.body];
     RigidProxy& proxy = m_proxies[c.proxy];
     // More of it may touch than the step was chosen for: as if several contacts had begun.
-    if (body.cells && body.exposure.area[c.element] > c.exposed) body.touchesBegun[c.element] = 2;
+    if (body.constants->cells && body.state.exposure.area[c.element] > c.exposed)
+      body.work.touchesBegun[c.element] = 2;
     RigidTouch t;
     const bool touched = c.touching;
     c.touching = m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, resting, books, t)
@@ -399,9 +400,9 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       if (touched) part(c.memory);
       continue;
     }
-    if (!touched) ++body.touchesBegun[c.element];
+    if (!touched) ++body.work.touchesBegun[c.element];
     add(t, c, body);
-    pushMotion(body.motions[body.motionOf[c.element]], t.x, t.force, t.torque);
+    pushMotion(body.work.motions[body.work.motionOf[c.element]], t.x, t.force, t.torque);
     resting.push(t.resting, t.full);
     const double size = kick * t.force.norm();
     proxy.contactPoint += size * t.at;
@@ -417,7 +418,7 @@ template <class Real>
 void RigidContacts<Real>::release(Bodies bodies, double kick, Books& books) {
   for (RigidContact& c : m_contacts) {
     Body<Real>& body = *bodies[c.body];
-    if (!c.touching || !body.leaving[c.element]) continue;
+    if (!c.touching || !body.work.leaving[c.element]) continue;
     const RigidTouch before = m_pushes[c.push].touch;
     take(c, body);
     bookChange(before, {}, kick, books);
@@ -432,7 +433,8 @@ void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Restin
                                  Books& books) {
   for (RigidContact& c : m_contacts) {
     Body<Real>& body = *bodies[c.body];
-    if (!c.touching || !body.cells || c.faces.area == body.exposure.area[c.element]) continue;
+    if (!c.touching || !body.constants->cells || c.faces.area == body.state.exposure.area[c.element])
+      continue;
     const RigidTouch before = m_pushes[c.push].touch;
     take(c, body);
     if (c.balls > 0) {

@@ -7,7 +7,7 @@ namespace {
 
 template <class Real>
 bool belongs(const Body<Real>& body, std::size_t i, std::uint32_t root) {
-  return body.alive[i] && (root == kNoElement || body.fragment[i] == root);
+  return body.state.alive[i] && (root == kNoElement || body.state.fragment[i] == root);
 }
 
 // Of those of the elements that `isIn` takes and that groupOf(element) gives one number.
@@ -20,9 +20,9 @@ std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, const Ele
       if (isIn(i)) visit(i, motions[groupOf(i)]);
   };
   each([&](std::size_t i, RigidMotion& m) {
-    m.mass += body.mass[i];
-    m.centre += body.mass[i] * body.worldPosition(i);
-    m.velocity += body.mass[i] * body.velocity[i].template cast<double>();
+    m.mass += body.constants->mass[i];
+    m.centre += body.constants->mass[i] * body.worldPosition(i);
+    m.velocity += body.constants->mass[i] * body.state.velocity[i].template cast<double>();
   });
   for (auto& [group, m] : motions) {
     m.centre /= m.mass;
@@ -30,10 +30,12 @@ std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, const Ele
   }
   each([&](std::size_t i, RigidMotion& m) {
     const Eigen::Vector3d arm = body.worldPosition(i) - m.centre;
-    const Eigen::Vector3d v = body.velocity[i].template cast<double>() - m.velocity;
-    m.angular += body.mass[i] * arm.cross(v) + body.inertia[i] * body.spin[i].template cast<double>();
-    m.inertia += body.mass[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose()) +
-                 body.inertia[i] * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d v = body.state.velocity[i].template cast<double>() - m.velocity;
+    m.angular += body.constants->mass[i] * arm.cross(v) +
+                 body.constants->inertia[i] * body.state.spin[i].template cast<double>();
+    m.inertia +=
+        body.constants->mass[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose()) +
+        body.constants->inertia[i] * Eigen::Matrix3d::Identity();
   });
   for (auto& [group, m] : motions) m.spin = m.inertia.ldlt().solve(m.angular);
   return motions;
@@ -44,8 +46,8 @@ std::map<std::uint32_t, RigidMotion> motionsOf(const Body<Real>& body, const Ele
 template <class Real>
 std::map<std::uint32_t, RigidMotion> rigidMotions(const Body<Real>& body) {
   return motionsOf(
-      body, body.awake, [&](std::size_t i) { return body.alive[i] != 0; },
-      [&](std::size_t i) { return body.fragment[i]; });
+      body, body.work.awake, [&](std::size_t i) { return body.state.alive[i] != 0; },
+      [&](std::size_t i) { return body.state.fragment[i]; });
 }
 
 template <class Real>
@@ -62,12 +64,12 @@ Placement placementOf(const Body<Real>& body, std::uint32_t root) {
   Eigen::Vector4d turn = Eigen::Vector4d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     if (!belongs(body, i, root)) continue;
-    p.mass += body.mass[i];
-    p.centre += body.mass[i] * body.worldPosition(i);
-    p.restCentre += body.mass[i] * body.asset->positions[i];
-    p.anchored = p.anchored || body.anchored[i];
+    p.mass += body.constants->mass[i];
+    p.centre += body.constants->mass[i] * body.worldPosition(i);
+    p.restCentre += body.constants->mass[i] * body.constants->asset->positions[i];
+    p.anchored = p.anchored || body.state.anchored[i];
     const Eigen::Vector4d q = body.orientation(i).coeffs();
-    turn += (q.dot(turn) < 0 ? -body.mass[i] : body.mass[i]) * q;
+    turn += (q.dot(turn) < 0 ? -body.constants->mass[i] : body.constants->mass[i]) * q;
   }
   if (!(p.mass > 0)) return p;
   p.centre /= p.mass;

@@ -42,10 +42,10 @@ double mobilityAt(const RigidProxy& proxy, const Eigen::Vector3d& from, double s
 template <class Real>
 void weighFaces(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, FaceTouch& faces) {
   const std::uint32_t i = c.element;
-  const CellFaces& cells = *body.cells;
-  c.exposed = body.exposure.area[i];
+  const CellFaces& cells = *body.constants->cells;
+  c.exposed = body.state.exposure.area[i];
   c.weight = c.mode = c.dampingWeight = 0;
-  const double gyration = body.inertia[i] / body.mass[i];
+  const double gyration = body.constants->inertia[i] / body.constants->mass[i];
   const auto add = [&](double weight, double lever2) {
     c.weight += weight;
     c.mode += weight * (1 + lever2 / gyration);
@@ -60,7 +60,7 @@ void weighFaces(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy
   // Stiffness of the points against shifts and turns of the element, for a mass and an inertia of 1.
   Eigen::Matrix<double, 6, 6> stiff = Eigen::Matrix<double, 6, 6>::Zero(), damped = stiff;
   double pressed = 0;
-  faces.visitFacing(cells, body.exposure, i, pose,
+  faces.visitFacing(cells, body.state.exposure, i, pose,
                     [&](double weight, const Eigen::Vector3d& normal, const Eigen::Vector3d& lever) {
                       Eigen::Matrix<double, 6, 1> way;
                       way << normal, lever / std::sqrt(gyration);
@@ -77,14 +77,14 @@ void weighFaces(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy
 template <class Real>
 ElementRates ratesOf(const RigidContact& c, const Body<Real>& body, const ContactLaw<double>& law,
                      double& frequency2) {
-  const double moves = 1 / body.mass[c.element], turns = 1 / body.inertia[c.element];
-  if (!body.cells) {
+  const double moves = 1 / body.constants->mass[c.element], turns = 1 / body.constants->inertia[c.element];
+  if (!body.constants->cells) {
     frequency2 = law.stiffness * moves;
-    return contactRates(law, moves, turns, double(body.radius));
+    return contactRates(law, moves, turns, double(body.constants->radius));
   }
   if (!(c.weight > 0)) return {};
   frequency2 = c.lone * law.stiffness * moves;
-  const double reach = body.cells->reach[c.element], sliding = moves + reach * reach * turns;
+  const double reach = body.constants->cells->reach[c.element], sliding = moves + reach * reach * turns;
   return {
       law.stiffness * c.mode * moves + law.tangential * sliding + law.rolling * turns,
       law.damping * c.dampingWeight * moves + law.tangentialDamping * sliding + law.rollingDamping * turns};
@@ -94,15 +94,16 @@ ElementRates ratesOf(const RigidContact& c, const Body<Real>& body, const Contac
 template <class Real>
 void addMobility(const RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, RigidState& state) {
   if (!(c.weight > 0) || !proxy.isDynamic()) return;
-  const Eigen::Vector3d x = body.origin + body.position[c.element];
-  const double mobility =
-      mobilityAt(proxy, x - proxy.position, body.cells ? body.cells->reach[c.element] : double(body.radius));
+  const Eigen::Vector3d x = body.state.origin + body.work.position[c.element];
+  const double mobility = mobilityAt(
+      proxy, x - proxy.position,
+      body.constants->cells ? body.constants->cells->reach[c.element] : double(body.constants->radius));
   state.mobility += mobility;
-  state.rate += (c.weight - c.edges) * mobility * body.contact.stiffness;
+  state.rate += (c.weight - c.edges) * mobility * body.constants->contact.stiffness;
   if (!(c.edges > 0)) return;
-  const double rate = mobility * body.contact.stiffness;
+  const double rate = mobility * body.constants->contact.stiffness;
   state.edgeRate += c.edges * rate;
-  state.edgeMost = std::max(state.edgeMost, rate / std::sqrt(body.cells->unit));
+  state.edgeMost = std::max(state.edgeMost, rate / std::sqrt(body.constants->cells->unit));
 }
 
 void addEdges(const RigidProxy& proxy, RigidState& state) {

@@ -20,10 +20,10 @@ template <class Real>
 Parting partingOf(const Body<Real>& body, std::uint32_t i, const Eigen::Vector3d& x, const RigidSide& side,
                   const TouchWork& work) {
   const RigidProxy& proxy = side.proxy;
-  const FragmentMotion& fragment = body.motions[body.motionOf[i]];
+  const FragmentMotion& fragment = body.work.motions[body.work.motionOf[i]];
   const std::size_t resting = work.resting.pairOf(
       {rigidName(side.state.key), proxy.inverseMass, proxy.acceleration},
-      {fragmentName(body.id, body.fragment[i]), fragment.inverseMass, work.resting.gravity()});
+      {fragmentName(body.id, body.state.fragment[i]), fragment.inverseMass, work.resting.gravity()});
   return {
       fragment.velocityAt(x) - proxy.velocity - proxy.spin.cross(x - proxy.position),
       fragment.spin - proxy.spin,
@@ -56,19 +56,19 @@ bool touchSphere(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const std::uint32_t i = c.element;
   const RigidProxy& proxy = side.proxy;
   const Steps& steps = work.steps;
-  out.x = body.origin + body.position[i];
+  out.x = body.state.origin + body.work.position[i];
   const SurfacePoint surface = nearest(proxy, out.x);
-  const double radius = double(body.radius);
+  const double radius = double(body.constants->radius);
   if (surface.distance >= radius) {
     c.memory.range = 0;
     if (!c.touching) return false;
   }
   out.at = out.x - 0.5 * (surface.distance + radius) * surface.normal;
   const Eigen::Vector3d arm = out.at - out.x;
-  const Eigen::Vector3d spin = body.spin[i].template cast<double>();
+  const Eigen::Vector3d spin = body.state.spin[i].template cast<double>();
   ContactMotion<double> motion;
   motion.normal = surface.normal;
-  motion.approach = body.velocity[i].template cast<double>() + spin.cross(arm) - proxy.velocity -
+  motion.approach = body.state.velocity[i].template cast<double>() + spin.cross(arm) - proxy.velocity -
                     proxy.spin.cross(out.at - proxy.position);
   motion.spin = spin - proxy.spin;
   // Shifted by a radius, so that distances and ranges stay above 0 down to a radius below the surface;
@@ -167,7 +167,7 @@ double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& 
 template <class Real>
 double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
             const RigidSide& side, FaceTouch& faces) {
-  double lost = sinkFaces(faces.hits(), body.exposure.area[c.element], step, c.faces);
+  double lost = sinkFaces(faces.hits(), body.state.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
   faces.lift([&](const FaceHit& hit) {
     if (hit.corner == CornerName{}) return c.faces.sunk;
@@ -203,26 +203,26 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
                 std::span<const CornerHit> corners, const TouchWork& work, RigidTouch& out) {
   const std::uint32_t i = c.element;
   const RigidProxy& proxy = side.proxy;
-  const CellFaces& cells = *body.cells;
+  const CellFaces& cells = *body.constants->cells;
   const double moved = work.steps.moved;
-  out.x = body.origin + body.position[i];
+  out.x = body.state.origin + body.work.position[i];
   ElementPose pose;
   pose.at = proxy.orientation.conjugate() * (out.x - proxy.position);
-  const double reach = std::max(cells.core[i], body.exposure.count[i] > 0 ? cells.reach[i] : 0);
+  const double reach = std::max(cells.core[i], body.state.exposure.count[i] > 0 ? cells.reach[i] : 0);
   if (work.faces.approach(proxy, pose.at, reach) >= reach && !c.touching) {
     c.faces = {};
     return false;
   }
   const Eigen::Matrix3d turn = body.orientation(i).toRotationMatrix();
   pose.turn = proxy.orientation.conjugate().toRotationMatrix() * turn;
-  work.faces.find(cells, body.exposure, i, pose, c.balls > 0);
+  work.faces.find(cells, body.state.exposure, i, pose, c.balls > 0);
   // Of the element's points relative to the rigid body's: velocity + spin x arm.
-  const Eigen::Vector3d velocity =
-      body.velocity[i].template cast<double>() - proxy.velocity - proxy.spin.cross(out.x - proxy.position);
+  const Eigen::Vector3d velocity = body.state.velocity[i].template cast<double>() - proxy.velocity -
+                                   proxy.spin.cross(out.x - proxy.position);
   ContactMotion<double> motion;
-  motion.spin = body.spin[i].template cast<double>() - proxy.spin;
+  motion.spin = body.state.spin[i].template cast<double>() - proxy.spin;
   const ElementMotion own{turn.transpose() * velocity, turn.transpose() * motion.spin,
-                          body.inertia[i] / body.mass[i]};
+                          body.constants->inertia[i] / body.constants->mass[i]};
   const ContactLaw<double>& law = side.state.laws[c.body];
   const Parting parting = partingOf(body, i, out.x, side, work);
   out.resting = parting.resting;
@@ -249,7 +249,7 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
 
 template <class Real>
 ElementPose poseOf(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy) {
-  const Eigen::Vector3d x = body.origin + body.position[element];
+  const Eigen::Vector3d x = body.state.origin + body.work.position[element];
   const Eigen::Quaterniond back = proxy.orientation.conjugate();
   return {back * (x - proxy.position), (back * body.orientation(element)).toRotationMatrix()};
 }
@@ -257,17 +257,17 @@ ElementPose poseOf(const Body<Real>& body, std::uint32_t element, const RigidPro
 template <class Real>
 void findCorners(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy, FaceTouch& faces) {
   const ElementPose pose = poseOf(body, element, proxy);
-  const double reach = body.exposure.count[element] > 0 ? body.cells->reach[element] : 0;
+  const double reach = body.state.exposure.count[element] > 0 ? body.constants->cells->reach[element] : 0;
   faces.approach(proxy, pose.at, reach);
-  faces.findCorners(*body.cells, body.exposure, element, pose);
+  faces.findCorners(*body.constants->cells, body.state.exposure, element, pose);
 }
 
 template <class Real>
 bool touchRigid(RigidContact& contact, const Body<Real>& body, const RigidSide& side,
                 std::span<const CornerHit> corners, const TouchWork& work, RigidTouch& out) {
-  if (!body.alive[contact.element]) return false;
-  return body.cells ? touchFaces(contact, body, side, corners, work, out)
-                    : touchSphere(contact, body, side, work, out);
+  if (!body.state.alive[contact.element]) return false;
+  return body.constants->cells ? touchFaces(contact, body, side, corners, work, out)
+                               : touchSphere(contact, body, side, work, out);
 }
 
 template ElementPose poseOf(const Body<float>&, std::uint32_t, const RigidProxy&);

@@ -28,16 +28,16 @@ class Islands {
   void join(const World<Real>& w, bool sleeping) {
     for (const PairList<Real>& list : w.lists.lists()) {
       const Body<Real>&a = *w.bodies[list.first], &b = *w.bodies[list.second];
-      if (a.asleep || b.asleep) continue;
+      if (a.state.asleep || b.state.asleep) continue;
       for (const PairEntry& e : list.entries)
-        if (e.touching && a.alive[e.first] && b.alive[e.second] && bool(a.sleeping[e.first]) == sleeping &&
-            bool(b.sleeping[e.second]) == sleeping)
-          m_groups.join(m_first[list.first] + a.fragment[e.first],
-                        m_first[list.second] + b.fragment[e.second]);
+        if (e.touching && a.state.alive[e.first] && b.state.alive[e.second] &&
+            bool(a.state.sleeping[e.first]) == sleeping && bool(b.state.sleeping[e.second]) == sleeping)
+          m_groups.join(m_first[list.first] + a.state.fragment[e.first],
+                        m_first[list.second] + b.state.fragment[e.second]);
     }
   }
   std::uint32_t of(const World<Real>& w, const Place& p) {
-    return m_groups.of(m_first[p.body] + w.bodies[p.body]->fragment[p.element]);
+    return m_groups.of(m_first[p.body] + w.bodies[p.body]->state.fragment[p.element]);
   }
   std::size_t count() const { return m_first.back(); }
 
@@ -49,9 +49,9 @@ class Islands {
 template <class Real>
 double energyAsleep(const Body<Real>& body) {
   double energy = 0;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    const Spring<Real>& spring = body.springs[s];
-    if (!body.intact[s] || !body.sleeping[spring.first]) continue;
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    const Spring<Real>& spring = body.state.springs[s];
+    if (!body.state.intact[s] || !body.state.sleeping[spring.first]) continue;
     const SpringLoad<Real> load = springLoad(spring, body.end(spring.first), secondEnd(body, s));
     energy += double(load.stretchEnergy + load.rotationEnergy);
   }
@@ -60,17 +60,19 @@ double energyAsleep(const Body<Real>& body) {
 
 template <class Real>
 void recount(Body<Real>& body) {
-  body.sleepingCount = std::uint32_t(std::count(body.sleeping.begin(), body.sleeping.end(), 1));
-  body.energyAsleep = body.sleepingCount > 0 ? energyAsleep(body) : 0;
-  body.massAsleep = 0;
-  for (std::uint32_t i = 0; body.sleepingCount > 0 && i < body.elementCount(); ++i)
-    if (body.alive[i] && body.sleeping[i]) body.massAsleep += body.mass[i];
+  body.state.sleepingCount =
+      std::uint32_t(std::count(body.state.sleeping.begin(), body.state.sleeping.end(), 1));
+  body.state.energyAsleep = body.state.sleepingCount > 0 ? energyAsleep(body) : 0;
+  body.state.massAsleep = 0;
+  for (std::uint32_t i = 0; body.state.sleepingCount > 0 && i < body.elementCount(); ++i)
+    if (body.state.alive[i] && body.state.sleeping[i]) body.state.massAsleep += body.constants->mass[i];
   listAwake(body);
 }
 
 template <class Real>
 bool anySleeping(const World<Real>& w) {
-  return std::any_of(w.bodies.begin(), w.bodies.end(), [](const auto& b) { return b->sleepingCount > 0; });
+  return std::any_of(w.bodies.begin(), w.bodies.end(),
+                     [](const auto& b) { return b->state.sleepingCount > 0; });
 }
 
 template <class Real>
@@ -82,15 +84,15 @@ bool wake(World<Real>& w, const std::vector<Place>& places) {
   for (const Place& p : places) wakes[islands.of(w, p)] = 1;
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.sleepingCount == 0) continue;
-    const std::uint32_t before = body.sleepingCount;
+    if (body.state.sleepingCount == 0) continue;
+    const std::uint32_t before = body.state.sleepingCount;
     for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-      if (!body.sleeping[i] || !wakes[islands.of(w, {b, i})]) continue;
-      body.sleeping[i] = 0;
-      body.calmTime[i] = 0;
+      if (!body.state.sleeping[i] || !wakes[islands.of(w, {b, i})]) continue;
+      body.state.sleeping[i] = 0;
+      body.state.calmTime[i] = 0;
     }
     recount(body);
-    if (body.sleepingCount < before) beginMotions(body);
+    if (body.state.sleepingCount < before) beginMotions(body);
   }
   w.stepLength.beginTick(w.bodies);
   w.listsStale = true;
@@ -103,10 +105,10 @@ template <class Real>
 bool comesAt(PairList<Real>& list, std::size_t k, const Vec3<double>& offset, Body<Real>& a,
              const Body<Real>& b) {
   const PairEntry& e = list.entries[k];
-  const Real free = a.radius + b.radius;
-  const Real distance = Real(((b.position[e.second] - a.position[e.first]) + offset).norm());
+  const Real free = a.constants->radius + b.constants->radius;
+  const Real distance = Real(((b.work.position[e.second] - a.work.position[e.first]) + offset).norm());
   const bool own = e.pair != kNoPair;
-  Real& range = own ? a.range[e.pair] : list.memory[k].range;
+  Real& range = own ? a.state.range[e.pair] : list.memory[k].range;
   if (distance >= free) {
     range = own ? free : Real(0);
     return false;
@@ -119,7 +121,8 @@ bool comesAt(PairList<Real>& list, std::size_t k, const Vec3<double>& offset, Bo
 // Of an element's centre, and of its surface by spin [m/s].
 template <class Real>
 double fastestOf(const Body<Real>& body, std::size_t i) {
-  return double(body.velocity[i].norm()) + double(body.radius) * double(body.spin[i].norm());
+  return double(body.state.velocity[i].norm()) +
+         double(body.constants->radius) * double(body.state.spin[i].norm());
 }
 
 // Which fragments, by their lowest elements, have been slower than `speed` for longer than `time`; `since` is
@@ -128,10 +131,10 @@ template <class Real>
 std::vector<std::uint8_t> slowFragments(const Body<Real>& body, double speed, double time, double dt,
                                         std::vector<float>& since) {
   std::vector<std::uint8_t> slow(body.elementCount(), 1);
-  for (const std::uint32_t i : body.awake) {
-    if (!body.alive[i]) continue;
+  for (const std::uint32_t i : body.work.awake) {
+    if (!body.state.alive[i]) continue;
     since[i] = fastestOf(body, i) < speed ? since[i] + float(dt) : 0;
-    if (!(double(since[i]) > time)) slow[body.fragment[i]] = 0;
+    if (!(double(since[i]) > time)) slow[body.state.fragment[i]] = 0;
   }
   return slow;
 }
@@ -139,14 +142,14 @@ std::vector<std::uint8_t> slowFragments(const Body<Real>& body, double speed, do
 // What swings is as fast again in half a period at most; what topples is only ever faster.
 template <class Real>
 void followSwings(Body<Real>& body) {
-  for (const std::uint32_t i : body.awake) {
+  for (const std::uint32_t i : body.work.awake) {
     const float speed = float(fastestOf(body, i));
-    if (!(body.slowTime[i] > 0)) body.slowPeak[i] = 0;
-    if (speed > body.slowPeak[i]) {
-      body.slowPeak[i] = speed;
-      body.slowTurned[i] = 0;
-    } else if (speed < 0.5f * body.slowPeak[i]) {
-      body.slowTurned[i] = 1;
+    if (!(body.state.slowTime[i] > 0)) body.state.slowPeak[i] = 0;
+    if (speed > body.state.slowPeak[i]) {
+      body.state.slowPeak[i] = speed;
+      body.state.slowTurned[i] = 0;
+    } else if (speed < 0.5f * body.state.slowPeak[i]) {
+      body.state.slowTurned[i] = 1;
     }
   }
 }
@@ -159,38 +162,40 @@ void settle(World<Real>& w, double dt) {
   std::vector<std::vector<std::uint8_t>> slow(w.bodies.size());
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.asleep) continue;
+    if (body.state.asleep) continue;
     slow[b].assign(body.elementCount(), 0);
     if (def.settleSpeed > 0)
-      slow[b] = slowFragments(body, def.settleSpeed, def.settleTime, dt, body.slowTime);
-    std::vector<double> rates(body.elementCount(), body.massDamping);
-    bool any = body.massDamping > 0;
-    for (const std::uint32_t i : body.awake) {
-      if (!body.alive[i]) continue;
+      slow[b] = slowFragments(body, def.settleSpeed, def.settleTime, dt, body.state.slowTime);
+    std::vector<double> rates(body.elementCount(), body.constants->massDamping);
+    bool any = body.constants->massDamping > 0;
+    for (const std::uint32_t i : body.work.awake) {
+      if (!body.state.alive[i]) continue;
       if (slow[b][i]) rates[i] = std::max(rates[i], def.settleRate);
-      any = any || (body.fragment[i] != i && slow[b][body.fragment[i]]);  // a single one has no deformation
+      any = any || (body.state.fragment[i] != i &&
+                    slow[b][body.state.fragment[i]]);  // a single one has no deformation
     }
     if (any) dampDeformation(body, std::span<const double>(rates), dt, w.books);
   }
   if (!(def.settleSpeed > 0) || !(w.gravity.norm() * def.settleTime > def.settleSpeed)) return;
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.asleep) continue;
+    if (body.state.asleep) continue;
     followSwings(body);
-    for (const std::uint32_t i : body.awake) {
-      if (!body.alive[i]) continue;
-      if (double(body.slowPeak[i]) > def.sleepSpeed && !body.slowTurned[i]) slow[b][body.fragment[i]] = 0;
+    for (const std::uint32_t i : body.work.awake) {
+      if (!body.state.alive[i]) continue;
+      if (double(body.state.slowPeak[i]) > def.sleepSpeed && !body.state.slowTurned[i])
+        slow[b][body.state.fragment[i]] = 0;
     }
   }
   w.rigid.visitAtMoving([&](std::uint32_t b, std::uint32_t i) {
-    if (w.bodies[b]->alive[i]) slow[b][w.bodies[b]->fragment[i]] = 0;
+    if (w.bodies[b]->state.alive[i]) slow[b][w.bodies[b]->state.fragment[i]] = 0;
   });
   const double share = -std::expm1(-def.brakeRate * dt);
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.asleep) continue;
-    for (const std::uint32_t i : body.awake)
-      if (body.alive[i] && slow[b][body.fragment[i]]) brake(body, i, share, w.books);
+    if (body.state.asleep) continue;
+    for (const std::uint32_t i : body.work.awake)
+      if (body.state.alive[i] && slow[b][body.state.fragment[i]]) brake(body, i, share, w.books);
   }
 }
 
@@ -202,37 +207,39 @@ void putToSleep(World<Real>& w, double dt) {
   const auto visit = [&w](auto&& f) {
     for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
       const Body<Real>& body = *w.bodies[b];
-      if (body.asleep) continue;
-      for (const std::uint32_t i : body.awake)
-        if (body.alive[i]) f(Place{b, i});
+      if (body.state.asleep) continue;
+      for (const std::uint32_t i : body.work.awake)
+        if (body.state.alive[i]) f(Place{b, i});
     }
   };
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b)
-    if (!w.bodies[b]->asleep)
-      calm[b] = slowFragments(*w.bodies[b], w.def.sleepSpeed, w.def.sleepTime, dt, w.bodies[b]->calmTime);
-  visit([&](const Place& p) { any = any || calm[p.body][w.bodies[p.body]->fragment[p.element]]; });
+    if (!w.bodies[b]->state.asleep)
+      calm[b] =
+          slowFragments(*w.bodies[b], w.def.sleepSpeed, w.def.sleepTime, dt, w.bodies[b]->state.calmTime);
+  visit([&](const Place& p) { any = any || calm[p.body][w.bodies[p.body]->state.fragment[p.element]]; });
   if (!any) return;
 
   Islands<Real> islands(w);
   islands.join(w, false);
   std::vector<std::uint8_t> restless(islands.count(), 0);
   visit([&](const Place& p) {
-    if (!calm[p.body][w.bodies[p.body]->fragment[p.element]]) restless[islands.of(w, p)] = 1;
+    if (!calm[p.body][w.bodies[p.body]->state.fragment[p.element]]) restless[islands.of(w, p)] = 1;
   });
   w.rigid.visitAtMoving([&](std::uint32_t body, std::uint32_t element) {
-    if (w.bodies[body]->alive[element]) restless[islands.of(w, {body, element})] = 1;
+    if (w.bodies[body]->state.alive[element]) restless[islands.of(w, {body, element})] = 1;
   });
   std::vector<std::uint8_t> fell(w.bodies.size(), 0);
   visit([&](const Place& p) {
     if (restless[islands.of(w, p)]) return;
     Body<Real>& body = *w.bodies[p.body];
     brake(body, p.element, 1, w.books);
-    body.sleeping[p.element] = 1;
+    body.state.sleeping[p.element] = 1;
     fell[p.body] = 1;
   });
   for (std::size_t b = 0; b < fell.size(); ++b) {
     if (!fell[b]) continue;
-    beginSubstep(*w.bodies[b]);  // for the last time of what sleeps now: where it is, without forces
+    beginSubstep(w.bodies[b]->state,
+                 w.bodies[b]->work);  // for the last time of what sleeps now: where it is, without forces
     recount(*w.bodies[b]);
   }
 }
@@ -253,16 +260,17 @@ bool wakeTouched(World<Real>& w) {
   std::vector<Place> places;
   for (PairList<Real>& list : w.lists.lists()) {
     Body<Real>&a = *w.bodies[list.first], &b = *w.bodies[list.second];
-    if (a.sleepingCount + b.sleepingCount == 0 || (a.asleep && b.asleep)) continue;
-    const Vec3<double> offset = b.origin - a.origin;
+    if (a.state.sleepingCount + b.state.sleepingCount == 0 || (a.state.asleep && b.state.asleep)) continue;
+    const Vec3<double> offset = b.state.origin - a.state.origin;
     for (std::size_t k = 0; k < list.entries.size(); ++k) {
       const PairEntry& e = list.entries[k];
       // What sleeps with all of its body bears what lies on it.
-      const bool first = a.asleep || a.sleeping[e.first], second = b.asleep || b.sleeping[e.second];
-      if (first == second || !a.alive[e.first] || !b.alive[e.second]) continue;
-      if (!(first ? a.sleeping[e.first] : b.sleeping[e.second])) continue;
+      const bool first = a.state.asleep || a.state.sleeping[e.first],
+                 second = b.state.asleep || b.state.sleeping[e.second];
+      if (first == second || !a.state.alive[e.first] || !b.state.alive[e.second]) continue;
+      if (!(first ? a.state.sleeping[e.first] : b.state.sleeping[e.second])) continue;
       if (!comesAt(list, k, offset, a, b)) continue;
-      places.push_back(a.sleeping[e.first] ? Place{list.first, e.first} : Place{list.second, e.second});
+      places.push_back(a.state.sleeping[e.first] ? Place{list.first, e.first} : Place{list.second, e.second});
     }
   }
   return wake(w, places);
@@ -270,7 +278,7 @@ bool wakeTouched(World<Real>& w) {
 
 template <class Real>
 void wakeElement(World<Real>& w, std::uint32_t body, std::uint32_t element) {
-  if (w.bodies[body]->sleeping[element]) wake(w, {Place{body, element}});
+  if (w.bodies[body]->state.sleeping[element]) wake(w, {Place{body, element}});
 }
 
 template <class Real>
@@ -280,7 +288,7 @@ void wakeNeighbours(World<Real>& w, std::uint32_t body) {
     if ((list.first == body) == (list.second == body)) continue;
     for (const PairEntry& e : list.entries) {
       const Place other = list.first == body ? Place{list.second, e.second} : Place{list.first, e.first};
-      if (e.touching && w.bodies[other.body]->sleeping[other.element]) places.push_back(other);
+      if (e.touching && w.bodies[other.body]->state.sleeping[other.element]) places.push_back(other);
     }
   }
   wake(w, places);
@@ -296,8 +304,8 @@ void wakeAll(World<Real>& w) {
 
 template <class Real>
 void forgetSleep(Body<Real>& body) {
-  std::fill(body.sleeping.begin(), body.sleeping.end(), std::uint8_t(0));
-  std::fill(body.calmTime.begin(), body.calmTime.end(), 0.0f);
+  std::fill(body.state.sleeping.begin(), body.state.sleeping.end(), std::uint8_t(0));
+  std::fill(body.state.calmTime.begin(), body.state.calmTime.end(), 0.0f);
   recount(body);
 }
 

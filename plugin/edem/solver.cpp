@@ -32,7 +32,7 @@ class SolverOf final : public Solver {
     requireStep(*body, def.material, stableStepOf(*body), m_world.def);
     PrestressResult prestressed;
     if (def.anchored && gravity.squaredNorm() > 0) prestressed = prestress(*body, gravity, &m_restCache);
-    beginSubstep(*body);
+    beginSubstep(body->state, body->work);
     bookNew(*body, m_world.books);
     m_world.bodies.push_back(std::move(body));
     m_prestressed.push_back(std::move(prestressed));
@@ -70,28 +70,29 @@ class SolverOf final : public Solver {
   }
   bool anyAwake() const override {
     return std::any_of(m_world.bodies.begin(), m_world.bodies.end(),
-                       [](const auto& b) { return !b->asleep; });
+                       [](const auto& b) { return !b->state.asleep; });
   }
 
   BodyView view(std::uint32_t id) const override {
     const Body<Real>& b = of(id);
-    return {b.alive,         b.intact,       b.fragment,    b.mass,   b.inertia,      b.sleeping,
-            b.fragmentCount, b.crushedCount, b.brokenCount, b.asleep, b.sleepingCount};
+    return {b.state.alive,        b.state.intact,   b.state.fragment,      b.constants->mass,
+            b.constants->inertia, b.state.sleeping, b.state.fragmentCount, b.state.crushedCount,
+            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {
-    return of(id).velocity[i].template cast<double>();
+    return of(id).state.velocity[i].template cast<double>();
   }
   Eigen::Vector3d spin(std::uint32_t id, std::size_t i) const override {
-    return of(id).spin[i].template cast<double>();
+    return of(id).state.spin[i].template cast<double>();
   }
   Eigen::Quaterniond orientation(std::uint32_t id, std::size_t i) const override {
     return of(id).orientation(i);
   }
   Eigen::AlignedBox3d bounds(std::uint32_t id) const override { return boundsOf(of(id)); }
   double maxSpeed(std::uint32_t id) const override { return speedOf(of(id)); }
-  double radius(std::uint32_t id) const override { return double(of(id).radius); }
-  const CellFaces* cells(std::uint32_t id) const override { return of(id).cells.get(); }
+  double radius(std::uint32_t id) const override { return double(of(id).constants->radius); }
+  const CellFaces* cells(std::uint32_t id) const override { return of(id).constants->cells.get(); }
   void elementsIn(std::uint32_t id, const Eigen::AlignedBox3d& box,
                   std::vector<std::uint32_t>& out) const override {
     edem::elementsIn(of(id), box, out);
@@ -126,24 +127,24 @@ class SolverOf final : public Solver {
 
   void load(std::uint32_t id, std::span<const HostLoad> loads) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
-    body.hostLoads.insert(body.hostLoads.end(), loads.begin(), loads.end());
+    body.state.hostLoads.insert(body.state.hostLoads.end(), loads.begin(), loads.end());
   }
 
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
     Body<Real>& body = *m_world.bodies[placeOf(id)];
-    body.easeDamping = rate;
-    body.easeBroken = body.brokenCount;
+    body.state.easeDamping = rate;
+    body.state.easeBroken = body.state.brokenCount;
   }
 
   void setAsleep(std::uint32_t id, bool asleep) override {
     Body<Real>& body = *m_world.bodies[placeOf(id)];
-    if (body.asleep == asleep) return;
-    body.asleep = asleep;
+    if (body.state.asleep == asleep) return;
+    body.state.asleep = asleep;
     m_world.listsStale = true;
     // What its fragments lay on may have gone while nobody looked.
     if (!asleep) return forgetSleep(body);
-    body.sleepingElastic = elasticOf(body);
+    body.state.sleepingElastic = elasticOf(body);
     bookSlept(body, m_world.books);
   }
 

@@ -11,11 +11,11 @@ namespace {
 
 template <class Real>
 void addSpringRates(const Body<Real>& body, std::size_t s, std::span<ElementRates> rates) {
-  if (!body.intact[s]) return;
-  const Spring<Real>& spring = body.springs[s];
+  if (!body.state.intact[s]) return;
+  const Spring<Real>& spring = body.state.springs[s];
   const auto add = [&](std::uint32_t i, double side) {
     const double quarter = double((Real(0.5) * spring.rest + Real(side) * spring.offset).squaredNorm());
-    const double m = body.mass[i], inertia = body.inertia[i];
+    const double m = body.constants->mass[i], inertia = body.constants->inertia[i];
     rates[i].stiffness += double(spring.stiffness) / m +
                           (double(spring.stiffness) * quarter + double(spring.rotational)) / inertia;
     rates[i].damping += double(spring.damping) / m +
@@ -31,14 +31,14 @@ template <class Real>
 void springRates(const Body<Real>& body, std::span<ElementRates> rates) {
   assert(rates.size() == body.elementCount());
   std::fill(rates.begin(), rates.end(), ElementRates{});
-  for (std::size_t s = 0; s < body.springs.size(); ++s) addSpringRates(body, s, rates);
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) addSpringRates(body, s, rates);
 }
 
 template <class Real>
 void awakeSpringRates(const Body<Real>& body, std::span<ElementRates> rates) {
   assert(rates.size() == body.elementCount());
   std::fill(rates.begin(), rates.end(), ElementRates{});
-  for (const std::uint32_t s : body.awakeSprings) addSpringRates(body, s, rates);
+  for (const std::uint32_t s : body.work.awakeSprings) addSpringRates(body, s, rates);
 }
 
 ElementRates contactRates(const ContactLaw<double>& law, double inverseMass, double inverseInertia,
@@ -70,9 +70,9 @@ double RateBound::stableStep() const {
 template <class Real>
 RateBound springBound(const Body<Real>& body, std::span<const ElementRates> rates) {
   RateBound bound;
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (!body.intact[s]) continue;
-    const Spring<Real>& spring = body.springs[s];
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    if (!body.state.intact[s]) continue;
+    const Spring<Real>& spring = body.state.springs[s];
     bound.add(rates[spring.first], body.isAnchor(s) ? ElementRates{} : rates[spring.second]);
   }
   return bound;

@@ -1,4 +1,6 @@
 // The stages of one substep, in their order. Each is a free function on plain arrays; tick.cpp calls them.
+// Those that decide read constants and state and write work space; applyBreaks, integrate and removeCrushed
+// change the state.
 #pragma once
 
 #include <span>
@@ -35,22 +37,23 @@ struct TickReport {
 
 /// Sets forces, loads and overload lists to nothing and refreshes positions, of what is awake.
 template <class Real>
-void beginSubstep(Body<Real>& body);
+void beginSubstep(const BodyState<Real>& state, BodyWork<Real>& work);
 
 /// Springs: force, torque, load W_I (eq. 3) and which springs are over their limit (decides, changes
 /// nothing). `kick` is the time over which the forces will act [s]. Returns the elastic energy [J].
 template <class Real>
-double accumulateSprings(Body<Real>& body, double kick, bool breaking, Books& books);
+double accumulateSprings(const Body<Real>& body, BodyWork<Real>& work, double kick, bool breaking,
+                         Books& books);
 
 /// Element contacts of one list (paper 3.1.2), of one body or two; their energy goes into list.elastic.
 template <class Real>
 void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, const Steps& steps,
                         RestingLoads& resting, Books& books);
 
-/// Marks the elements whose load passes the limit of eq. (4): fills body.leaving and adds their springs to
+/// Marks the elements whose load passes the limit of eq. (4): fills work.leaving and adds their springs to
 /// the overloaded ones.
 template <class Real>
-void markCrushed(Body<Real>& body);
+void markCrushed(const Body<Real>& body, BodyWork<Real>& work);
 
 /// Takes the contacts of leaving elements out of this substep, as applyBreaks does with springs.
 template <class Real>

@@ -18,7 +18,8 @@ constexpr double kContactsShorten = 1.5;
 
 template <class Real>
 ElementRates ratesOf(const ContactLaw<double>& law, const Body<Real>& body, std::uint32_t i) {
-  return contactRates(law, 1 / body.mass[i], 1 / body.inertia[i], double(body.radius));
+  return contactRates(law, 1 / body.constants->mass[i], 1 / body.constants->inertia[i],
+                      double(body.constants->radius));
 }
 
 void operator+=(ElementRates& a, const ElementRates& b) {
@@ -34,7 +35,7 @@ void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bo
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     m_springs[b].assign(bodies[b]->elementCount(), {});
     const Body<Real>& body = *bodies[b];
-    if (body.asleep) continue;
+    if (body.state.asleep) continue;
     awakeSpringRates(body, std::span(m_springs[b]));
   }
 }
@@ -76,10 +77,11 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
     const ContactLaw<double> law = l.law.template cast<double>();
     for (const PairEntry& e : l.entries) {
-      if (a.sleeping[e.first] && b.sleeping[e.second]) continue;
-      m_contact2 = std::max(m_contact2, law.stiffness * (1 / a.mass[e.first] + 1 / b.mass[e.second]));
-      if (!a.asleep) addContact(l.first, e.first, ratesOf(law, a, e.first), e.touching);
-      if (!b.asleep) addContact(l.second, e.second, ratesOf(law, b, e.second), e.touching);
+      if (a.state.sleeping[e.first] && b.state.sleeping[e.second]) continue;
+      m_contact2 = std::max(
+          m_contact2, law.stiffness * (1 / a.constants->mass[e.first] + 1 / b.constants->mass[e.second]));
+      if (!a.state.asleep) addContact(l.first, e.first, ratesOf(law, a, e.first), e.touching);
+      if (!b.state.asleep) addContact(l.second, e.second, ratesOf(law, b, e.second), e.touching);
     }
   }
   rigid.weigh(bodies);
@@ -89,25 +91,25 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     m_contact2 = std::max(m_contact2, frequency2);
   });
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    bodies[b]->touchesBegun.assign(bodies[b]->elementCount(), 0);
+    bodies[b]->work.touchesBegun.assign(bodies[b]->elementCount(), 0);
     for (std::size_t i = 0; i < m_rates[b].size(); ++i) m_rates[b][i] += m_next[b][i];
   }
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     const Body<Real>& body = *bodies[b];
-    if (body.asleep) continue;
+    if (body.state.asleep) continue;
     const std::vector<ElementRates>& rates = m_rates[b];
-    for (const std::uint32_t s : body.awakeSprings) {
-      const Spring<Real>& spring = body.springs[s];
-      if (!body.intact[s]) continue;
+    for (const std::uint32_t s : body.work.awakeSprings) {
+      const Spring<Real>& spring = body.state.springs[s];
+      if (!body.state.intact[s]) continue;
       add(b, rates[spring.first], body.isAnchor(s) ? ElementRates{} : rates[spring.second]);
     }
-    for (const std::uint32_t i : body.awake)
-      if (body.alive[i]) add(b, rates[i], {});
+    for (const std::uint32_t i : body.work.awake)
+      if (body.state.alive[i]) add(b, rates[i], {});
   }
   for (const PairList<Real>& l : lists.lists()) {
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
     for (const PairEntry& e : l.entries)
-      if (!a.sleeping[e.first] || !b.sleeping[e.second])
+      if (!a.state.sleeping[e.first] || !b.state.sleeping[e.second])
         add(l.first, m_rates[l.first][e.first], m_rates[l.second][e.second]);
   }
   // What moves at a rigid body moves it too: light ones are made softer where they would need a step much
@@ -122,8 +124,8 @@ template <class Real>
 void requireStep(const Body<Real>& body, const Material& material, double step, const SolverDef& def) {
   const double substeps = std::ceil(1.0 / 60 / step);
   if (substeps <= def.maxSubstepsPerFrame) return;
-  const double lightest = *std::min_element(body.mass.begin(), body.mass.end());
-  const double resolving = kContactPhase / std::sqrt(2 * body.contact.stiffness / lightest);
+  const double lightest = *std::min_element(body.constants->mass.begin(), body.constants->mass.end());
+  const double resolving = kContactPhase / std::sqrt(2 * body.constants->contact.stiffness / lightest);
   const double enough = std::ceil(1.0 / 60 / std::min(step / kContactsShorten, resolving));
   // Every frequency goes with sqrt(E); rounded down by more than the text rounds.
   const double share = def.maxSubstepsPerFrame / enough;

@@ -29,15 +29,17 @@ BodyDef freeBody(const TestCube& cube, const Material& material) {
 TestingMachine::TestingMachine(TestCube cube, const Material& material, Plates plates, double speed)
     : m_cube(std::move(cube)), m_one(freeBody(m_cube, material)), m_plates(plates), m_speed(speed) {
   Body<double>& body = m_one.body();
+  const auto constants = std::make_shared<BodyConstants<double>>(*body.constants);
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
-    body.velocity[i] = Eigen::Vector3d(0, 0, velocityOf(i));  // no blow at the start
+    body.state.velocity[i] = Eigen::Vector3d(0, 0, velocityOf(i));  // no blow at the start
     const int end = endOf(*m_cube.asset, i);
     if (end == 0) continue;
     m_held.push_back({i, double(end)});
     if (plates == Plates::Greased) continue;
-    body.inverseMass[i] = 0;
-    body.inverseInertia[i] = 0;
+    constants->inverseMass[i] = 0;  // held by what is infinitely heavy
+    constants->inverseInertia[i] = 0;
   }
+  body.constants = constants;
   std::vector<ElementRates> rates(body.elementCount());
   springRates(body, std::span(rates));
   const double bound = springBound(body, std::span<const ElementRates>(rates)).stableStep();
@@ -50,7 +52,7 @@ double TestingMachine::read(bool breaking) {
   double force = 0;
   for (int s = 0; s < m_stepsPerReading; ++s) {
     m_one.substep(m_step, breaking);
-    for (const Held& h : m_held) force -= h.end * m_one.body().force[h.element].z();
+    for (const Held& h : m_held) force -= h.end * m_one.body().work.force[h.element].z();
     if (m_plates == Plates::Greased) guide();
   }
   m_time += m_stepsPerReading * m_step;
@@ -66,11 +68,12 @@ void TestingMachine::guide() {
   Body<double>& body = m_one.body();
   for (const Held& h : m_held) {
     const std::uint32_t i = h.element;
-    body.displacement[i].z() += m_step * (velocityOf(i) - body.velocity[i].z());
-    body.velocity[i].z() = velocityOf(i);
-    body.velocityCarry[i].z() = 0;
-    body.spin[i].head<2>().setZero();
-    body.rotation[i] = Quat<double>(body.rotation[i].w(), 0, 0, body.rotation[i].z()).normalized();
+    body.state.displacement[i].z() += m_step * (velocityOf(i) - body.state.velocity[i].z());
+    body.state.velocity[i].z() = velocityOf(i);
+    body.state.velocityCarry[i].z() = 0;
+    body.state.spin[i].head<2>().setZero();
+    body.state.rotation[i] =
+        Quat<double>(body.state.rotation[i].w(), 0, 0, body.state.rotation[i].z()).normalized();
   }
 }
 

@@ -35,7 +35,7 @@ class TestingMachine {
   /// Now; positive in tension.
   double strain() const { return m_speed * m_time / m_cube.edge; }
   /// Springs.
-  std::uint32_t broken() { return m_one.body().brokenCount; }
+  std::uint32_t broken() { return m_one.body().state.brokenCount; }
 
  private:
   struct Held {

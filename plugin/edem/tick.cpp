@@ -27,7 +27,7 @@ template <class Real>
 void list(World<Real>& w, double left) {
   const base::ScopeTimer timer(w.report.listing);
   double radius = std::numeric_limits<double>::infinity();
-  for (const auto& body : w.bodies) radius = std::min(radius, double(body->radius));
+  for (const auto& body : w.bodies) radius = std::min(radius, double(body->constants->radius));
   w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * radius);
   wakeDisturbed(w);
   w.rigid.build(w.bodies, w.lists);
@@ -55,7 +55,7 @@ bool refreshLists(World<Real>& w, double left) {
 template <class Real>
 void refreshFragments(World<Real>& w) {
   for (auto& body : w.bodies) {
-    if (body->asleep || body->labelledBroken == body->brokenCount) continue;
+    if (body->state.asleep || body->state.labelledBroken == body->state.brokenCount) continue;
     labelFragments(*body);
     beginMotions(*body);
   }
@@ -65,8 +65,9 @@ void refreshFragments(World<Real>& w) {
 template <class Real>
 bool contactsBegan(const World<Real>& w) {
   return std::any_of(w.bodies.begin(), w.bodies.end(), [](const auto& body) {
-    const auto& begun = body->touchesBegun;
-    return !body->asleep && std::any_of(begun.begin(), begun.end(), [](std::uint16_t n) { return n > 1; });
+    const auto& begun = body->work.touchesBegun;
+    return !body->state.asleep &&
+           std::any_of(begun.begin(), begun.end(), [](std::uint16_t n) { return n > 1; });
   });
 }
 
@@ -78,9 +79,9 @@ double longestStep(World<Real>& w, double dt) {
   double speed = w.rigid.maxSpeed(w.drifts.proxies), radius = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     const Body<Real>& body = *w.bodies[b];
-    if (body.asleep) continue;
+    if (body.state.asleep) continue;
     speed = std::max(speed, speedOf(body, w.drifts.bodies[b].velocity));
-    radius = std::min(radius, double(body.radius));
+    radius = std::min(radius, double(body.constants->radius));
   }
   const bool travels = speed > 0 && std::isfinite(radius);
   const double travel = travels ? kTravelShare * radius / speed : std::numeric_limits<double>::infinity();
@@ -106,11 +107,12 @@ double longestStep(World<Real>& w, double dt) {
 
 template <class Real>
 std::uint32_t firstSpoiled(const Body<Real>& body) {
-  for (const std::uint32_t i : body.awake)
-    if (body.alive[i] && !(body.displacement[i].allFinite() && body.velocity[i].allFinite() &&
-                           body.spin[i].allFinite() && body.rotation[i].coeffs().allFinite()))
+  for (const std::uint32_t i : body.work.awake)
+    if (body.state.alive[i] &&
+        !(body.state.displacement[i].allFinite() && body.state.velocity[i].allFinite() &&
+          body.state.spin[i].allFinite() && body.state.rotation[i].coeffs().allFinite()))
       return i;
-  return body.awake.front();  // only its energy is
+  return body.work.awake.front();  // only its energy is
 }
 
 template <class Real>
@@ -118,15 +120,17 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   w.books.closeStep();
   w.books.elastic = 0;
   for (auto& body : w.bodies)
-    w.books.elastic +=
-        body->asleep ? body->sleepingElastic : accumulateSprings(*body, kick, w.def.breaking, w.books);
+    w.books.elastic += body->state.asleep
+                           ? body->state.sleepingElastic
+                           : accumulateSprings(*body, body->work, kick, w.def.breaking, w.books);
   for (PairList<Real>& l : w.lists.lists()) {
     Body<Real>&a = *w.bodies[l.first], &b = *w.bodies[l.second];
-    if (!a.asleep || !b.asleep) accumulateContacts(l, a, b, {w.lastStep, step}, w.resting, w.books);
+    if (!a.state.asleep || !b.state.asleep)
+      accumulateContacts(l, a, b, {w.lastStep, step}, w.resting, w.books);
     w.books.elastic += l.elastic;
   }
   for (auto& body : w.bodies)
-    if (!body->asleep) addHostLoads(*body, kick, w.books);
+    if (!body->state.asleep) addHostLoads(*body, kick, w.books);
   w.rigid.accumulate(w.bodies, {w.lastStep, step}, kick, w.resting, w.books);
   w.resting.settle();
   w.books.elastic += w.rigid.elastic();
@@ -134,9 +138,9 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   const std::size_t brokenBegin = w.report.broken.size();
   bool anyCrushed = false;
   for (auto& body : w.bodies) {
-    if (body->asleep || !w.def.crushing || !w.def.breaking) continue;
-    markCrushed(*body);
-    anyCrushed = anyCrushed || !body->crushing.empty();
+    if (body->state.asleep || !w.def.crushing || !w.def.breaking) continue;
+    markCrushed(*body, body->work);
+    anyCrushed = anyCrushed || !body->work.crushing.empty();
   }
   if (anyCrushed) {
     for (PairList<Real>& l : w.lists.lists())
@@ -144,7 +148,7 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     w.rigid.release(w.bodies, kick, w.books);
   }
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b)
-    if (!w.bodies[b]->asleep) applyBreaks(*w.bodies[b], b, kick, w.lists, w.books, w.report);
+    if (!w.bodies[b]->state.asleep) applyBreaks(*w.bodies[b], b, kick, w.lists, w.books, w.report);
   if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.resting, w.books);
 
   w.drifts.advance(step);
@@ -152,8 +156,9 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   w.books.linear = w.books.angular = Eigen::Vector3d::Zero();
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.asleep) {
-      for (std::size_t i = 0; i < body.elementCount(); ++i) w.books.mass += body.alive[i] ? body.mass[i] : 0;
+    if (body.state.asleep) {
+      for (std::size_t i = 0; i < body.elementCount(); ++i)
+        w.books.mass += body.state.alive[i] ? body.constants->mass[i] : 0;
       continue;
     }
     const Real moved2 =
@@ -165,14 +170,14 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
           "body " + std::to_string(body.id) + ": the state of its elements is not finite, first that of " +
           std::to_string(firstSpoiled(body)) + " in substep " + std::to_string(w.report.substeps) +
           " of its tick; lower substepSafety, or look for units other than metres, seconds, kilograms";
-    if (body.easeDamping > 0 && body.brokenCount == body.easeBroken)
-      dampDeformation(body, body.easeDamping, kick, w.books);
+    if (body.state.easeDamping > 0 && body.state.brokenCount == body.state.easeBroken)
+      dampDeformation(body, body.state.easeDamping, kick, w.books);
     moveMotions(body, kick, step, gravity);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }
   w.rigid.integrate(w.bodies, kick, step, w.books);
   for (auto& body : w.bodies)
-    if (!body->crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
+    if (!body->work.crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
 }
 
 template <class Real>
@@ -180,15 +185,15 @@ void closeTick(World<Real>& w, double dt) {
   for (auto& body : w.bodies) {
     const bool broke = std::any_of(w.report.broken.begin(), w.report.broken.end(),
                                    [&](const BrokenSpring& s) { return s.body == body->id; });
-    if (body->asleep || !broke) continue;
+    if (body->state.asleep || !broke) continue;
     labelFragments(*body);
     splitFrames(*body);
     listAwake(*body);
   }
-  for (auto& body : w.bodies) body->hostLoads.clear();
+  for (auto& body : w.bodies) body->state.hostLoads.clear();
   settle(w, dt);
   for (auto& body : w.bodies)
-    if (!body->asleep) fitFrames(*body);
+    if (!body->state.asleep) fitFrames(*body);
   putToSleep(w, dt);
 }
 
@@ -210,13 +215,13 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.stepLength.beginTick(w.bodies);
   if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
   for (auto& body : w.bodies)
-    if (!body->asleep || body->motions.empty()) beginMotions(*body);
+    if (!body->state.asleep || body->work.motions.empty()) beginMotions(*body);
   w.listsStale = true;
   double left = dt, step = dt;
   int substeps = 0;
   while (left > 0 && w.failure.empty()) {
     for (auto& body : w.bodies)
-      if (!body->asleep) beginSubstep(*body);
+      if (!body->state.asleep) beginSubstep(body->state, body->work);
     bool listed = refreshLists(w, left);
     if (wakeTouched(w)) {
       list(w, left);

@@ -15,7 +15,7 @@ namespace {
 class AssertDeathTest : public testing::Test {
  protected:
   AssertDeathTest() : m_body(edem::makeBody<double>(block({2, 1, 1}), 0)) {
-    edem::beginSubstep(m_body);
+    edem::beginSubstep(m_body.state, m_body.work);
     // Other tests of this process may have started threads.
     GTEST_FLAG_SET(death_test_style, "threadsafe");
   }
@@ -27,12 +27,12 @@ class AssertDeathTest : public testing::Test {
 };
 
 TEST_F(AssertDeathTest, SpringsRefuseANegativeStep) {
-  EXPECT_DEATH(edem::accumulateSprings(m_body, -1e-4, true, m_books), "kick >= 0");
+  EXPECT_DEATH(edem::accumulateSprings(m_body, m_body.work, -1e-4, true, m_books), "kick >= 0");
 }
 
 TEST_F(AssertDeathTest, SpringsRefuseAnElementThatIsNotThere) {
   m_body.springs[0].second = 2;
-  EXPECT_DEATH(edem::accumulateSprings(m_body, 1e-4, true, m_books), "elementCount");
+  EXPECT_DEATH(edem::accumulateSprings(m_body, m_body.work, 1e-4, true, m_books), "elementCount");
 }
 
 TEST_F(AssertDeathTest, BreakingRefusesASpringThatIsNotThere) {

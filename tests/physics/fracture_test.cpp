@@ -21,7 +21,7 @@ edem::BodyDef pairBreakingAt(double strain) {
 TYPED_TEST(Fracture, BreakAtRestInCompressionGivesNoKick) {
   using Real = TypeParam;
   OneBody<Real> one(pairBreakingAt(0.149));
-  one.body().displacement[0].x() = Real(0.15 * 0.2);  // 15 % shorter
+  one.body().state.displacement[0].x() = Real(0.15 * 0.2);  // 15 % shorter
   for (int n = 0; n < 200; ++n) one.substep(2e-4, true);
   ASSERT_EQ(one.report().broken.size(), 1u);
   EXPECT_EQ(one.report().broken[0].mode, BreakMode::Compression);
@@ -33,11 +33,12 @@ TYPED_TEST(Fracture, BreakAtRestInCompressionGivesNoKick) {
 TYPED_TEST(Fracture, BreakWhileClosingGivesNoKick) {
   using Real = TypeParam;
   OneBody<Real> one(pairBreakingAt(0.15));
-  one.body().velocity[0].x() = Real(14);
-  one.body().velocity[1].x() = Real(-14);
-  const double mass = one.body().mass[0];
+  one.body().state.velocity[0].x() = Real(14);
+  one.body().state.velocity[1].x() = Real(-14);
+  const double mass = one.body().constants->mass[0];
   const auto kinetic = [&] {
-    return 0.5 * mass * double(one.body().velocity[0].squaredNorm() + one.body().velocity[1].squaredNorm());
+    return 0.5 * mass *
+           double(one.body().state.velocity[0].squaredNorm() + one.body().state.velocity[1].squaredNorm());
   };
   while (one.report().broken.empty()) one.substep(5e-5, true);
   const double atBreak = kinetic();
@@ -50,7 +51,7 @@ TYPED_TEST(Fracture, BreakWhileClosingGivesNoKick) {
     least = std::min(least, kinetic());
   }
   EXPECT_LT(least, 0.1 * atBreak) << "the contact has stopped them";
-  EXPECT_GT(one.body().velocity[1].x(), Real(0)) << "and thrown them back";
+  EXPECT_GT(one.body().state.velocity[1].x(), Real(0)) << "and thrown them back";
   // Leapfrog's full-step velocities differ from its conserved energy by (omega h)^2 / 8.
   EXPECT_LT(most, atBreak * 1.001);
   EXPECT_LT(kinetic(), atBreak * 1.001);

@@ -167,15 +167,15 @@ struct StateSums {
   explicit StateSums(const edem::Body<Real>& body) {
     for (std::size_t i = 0; i < body.elementCount(); ++i) {
       places.push_back(body.worldPosition(i));
-      velocities.push_back(body.velocity[i].template cast<double>());
+      velocities.push_back(body.state.velocity[i].template cast<double>());
       turns.push_back(body.orientation(i));
     }
     edem::Body<Real> copy = body;
     edem::Books books;
-    edem::beginSubstep(copy);
-    elastic = edem::accumulateSprings(copy, 0, false, books);
+    edem::beginSubstep(copy.state, copy.work);
+    elastic = edem::accumulateSprings(copy, copy.work, 0, false, books);
     for (std::size_t i = 0; i < body.elementCount(); ++i)
-      EXPECT_LT((body.origin + copy.position[i] - places[i]).norm(), 1e-15) << i;
+      EXPECT_LT((body.state.origin + copy.work.position[i] - places[i]).norm(), 1e-15) << i;
   }
 };
 
@@ -193,17 +193,17 @@ edem::Body<Real> tornBody() {
   edem::Body<Real> body = edem::makeBody<Real>(def, 0);
   Numbers numbers;
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    body.displacement[i] = numbers.vector(0.01).cast<Real>();
-    body.velocity[i] = numbers.vector(1).cast<Real>();
+    body.state.displacement[i] = numbers.vector(0.01).cast<Real>();
+    body.state.velocity[i] = numbers.vector(1).cast<Real>();
     const Eigen::Vector3d half = numbers.vector(0.05);
-    body.rotation[i] =
+    body.state.rotation[i] =
         edem::Quat<Real>(edem::Quat<double>(1, half.x(), half.y(), half.z()).normalized().cast<Real>());
   }
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    const edem::Spring<Real>& spring = body.springs[s];
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    const edem::Spring<Real>& spring = body.state.springs[s];
     const bool torn =
         body.isAnchor(s) ? isRight(spring.first) : isRight(spring.first) != isRight(spring.second);
-    if (torn) body.intact[s] = 0;
+    if (torn) body.state.intact[s] = 0;
   }
   edem::labelFragments(body);
   return body;
@@ -222,13 +222,13 @@ void expectSame(const StateSums<Real>& a, const StateSums<Real>& b, double round
 TYPED_TEST(Frames, SplittingChangesNothing) {
   using Real = TypeParam;
   edem::Body<Real> body = tornBody<Real>();
-  const std::vector<edem::Vec3<Real>> before = body.displacement;
+  const std::vector<edem::Vec3<Real>> before = body.state.displacement;
   const StateSums<Real> whole(body);
   edem::splitFrames(body);
-  ASSERT_EQ(body.frames.size(), 2u);
+  ASSERT_EQ(body.state.frames.size(), 2u);
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    EXPECT_EQ(body.frameOf[i], isRight(i) ? 1u : 0u);
-    EXPECT_EQ(body.displacement[i], before[i]);
+    EXPECT_EQ(body.state.frameOf[i], isRight(i) ? 1u : 0u);
+    EXPECT_EQ(body.state.displacement[i], before[i]);
   }
   const StateSums<Real> split(body);
   EXPECT_EQ(split.elastic, whole.elastic);
@@ -244,15 +244,15 @@ TYPED_TEST(Frames, FittingTakesTheMeanMotionOfEachFragment) {
   using Real = TypeParam;
   edem::Body<Real> body = tornBody<Real>();
   edem::splitFrames(body);
-  const std::vector<edem::Vec3<Real>> before = body.displacement;
+  const std::vector<edem::Vec3<Real>> before = body.state.displacement;
   edem::fitFrames(body);
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {
     if (isRight(i)) {
-      shift += body.displacement[i].template cast<double>() / 8;
-      turn += body.rotation[i].vec().template cast<double>() / 8;
+      shift += body.state.displacement[i].template cast<double>() / 8;
+      turn += body.state.rotation[i].vec().template cast<double>() / 8;
     } else {
-      EXPECT_EQ(body.displacement[i], before[i]) << "the anchored half's frame stands";
+      EXPECT_EQ(body.state.displacement[i], before[i]) << "the anchored half's frame stands";
     }
   }
   // Of 1 cm and 0.05 rad.
@@ -269,15 +269,16 @@ TYPED_TEST(Frames, ACrushedElementStaysWhereItWas) {
   constexpr std::uint32_t kCrushed = kAlong - 1;
   const Eigen::Vector3d place = body.worldPosition(kCrushed);
   const Eigen::Quaterniond turn = body.orientation(kCrushed);
-  body.alive[kCrushed] = 0;
-  for (std::size_t s = 0; s < body.springs.size(); ++s)
-    if (body.springs[s].first == kCrushed || body.springs[s].second == kCrushed) body.intact[s] = 0;
+  body.state.alive[kCrushed] = 0;
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s)
+    if (body.state.springs[s].first == kCrushed || body.state.springs[s].second == kCrushed)
+      body.state.intact[s] = 0;
   edem::labelFragments(body);
   edem::splitFrames(body);
-  for (auto& u : body.displacement) u.x() += Real(1);
-  body.displacement[kCrushed].x() -= Real(1);
+  for (auto& u : body.state.displacement) u.x() += Real(1);
+  body.state.displacement[kCrushed].x() -= Real(1);
   edem::fitFrames(body);
-  EXPECT_EQ(body.frameOf[kCrushed], 0u);
+  EXPECT_EQ(body.state.frameOf[kCrushed], 0u);
   const double ulp = double(std::numeric_limits<Real>::epsilon());
   EXPECT_LT((body.worldPosition(kCrushed) - place).norm(), 3 * ulp);  // it had 1 m added and taken
   EXPECT_LT(body.orientation(kCrushed).angularDistance(turn), 3 * ulp);

@@ -37,8 +37,8 @@ class KeptRest : public ::testing::Test {
   static void expectEqualStates(const edem::Body<Real>& a, const edem::Body<Real>& b) {
     ASSERT_EQ(a.elementCount(), b.elementCount());
     for (std::size_t i = 0; i < a.elementCount(); ++i) {
-      EXPECT_EQ(a.displacement[i], b.displacement[i]) << i;
-      EXPECT_EQ(a.rotation[i].coeffs(), b.rotation[i].coeffs()) << i;
+      EXPECT_EQ(a.state.displacement[i], b.state.displacement[i]) << i;
+      EXPECT_EQ(a.state.rotation[i].coeffs(), b.state.rotation[i].coeffs()) << i;
     }
   }
 
@@ -146,15 +146,15 @@ TYPED_TEST(KeptRest, OfOneThatCannotBeSolvedIsNotTakenEither) {
   const edem::PrestressResult result = edem::prestress(body, kGravity);
   EXPECT_EQ(result.outcome, edem::PrestressOutcome::Failed);
   EXPECT_NE(result.refusal, "");
-  for (const auto& u : body.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
+  for (const auto& u : body.state.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
 }
 
 TYPED_TEST(KeptRest, IsOfAWholeBodyOnly) {
   auto body = this->make(this->keeping());
   // An anchor of many breaks.
-  body.intact.back() = 0;
-  ++body.brokenCount;
-  --body.anchorsIntact;
+  body.state.intact.back() = 0;
+  ++body.state.brokenCount;
+  --body.state.anchorsIntact;
   const edem::PrestressResult result = edem::prestress(body, kGravity);
   EXPECT_EQ(result.outcome, edem::PrestressOutcome::Done) << result.reason;
   EXPECT_EQ(result.refusal, "") << "it was not asked for";

@@ -46,7 +46,7 @@ TYPED_TEST(Prestress, LeavesNoResidualForce) {
 // A lattice of cubes has no Poisson's ratio: a column of n elements under its own weight is n springs in a
 // row, spring j carries (n - j) elements; the anchor is half a spring long and so twice as stiff.
 double settlementOfColumn(const edem::Body<double>& body) {
-  const double weight = 9.81 * body.mass[0], k = body.material.youngsModulus * 0.2;
+  const double weight = 9.81 * body.constants->mass[0], k = body.constants->material.youngsModulus * 0.2;
   const auto n = int(body.elementCount());
   double sum = n * weight / (2 * k);
   for (int j = 1; j < n; ++j) sum += (n - j) * weight / k;
@@ -58,7 +58,7 @@ TEST(PrestressedColumn, SettlesAsAUniformColumn) {
     auto body = edem::makeBody<double>(block({1, 10, 1}, true), 0);
     ASSERT_TRUE(edem::prestress(body, kGravity, nullptr, method).applied());
     const double expected = settlementOfColumn(body);
-    EXPECT_NEAR(-body.displacement[9].y(), expected, 1e-6 * expected);
+    EXPECT_NEAR(-body.state.displacement[9].y(), expected, 1e-6 * expected);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(PrestressedColumn, TallAndHeavySettlesAsAUniformColumn) {
   // A slender column buckles; as a perfectly straight one it has a state all the same.
   ASSERT_TRUE(result.applied()) << result.reason;
   const double expected = settlementOfColumn(body);
-  EXPECT_NEAR(-body.displacement[399].y(), expected, 1e-6 * expected);
+  EXPECT_NEAR(-body.state.displacement[399].y(), expected, 1e-6 * expected);
 }
 
 TEST(PrestressedColumn, WithoutRotationalStiffnessIsAStateToo) {
@@ -83,7 +83,7 @@ TEST(PrestressedColumn, WithoutRotationalStiffnessIsAStateToo) {
     const edem::PrestressResult result = edem::prestress(body, kGravity, nullptr, method);
     ASSERT_TRUE(result.applied()) << result.reason;
     const double expected = settlementOfColumn(body);
-    EXPECT_NEAR(-body.displacement[9].y(), expected, 1e-6 * expected);
+    EXPECT_NEAR(-body.state.displacement[9].y(), expected, 1e-6 * expected);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(PrestressFails, ChainWithoutStiffnessAcrossItsGravity) {
     const edem::PrestressResult result = edem::prestress(body, Eigen::Vector3d(9.81, 0, 0), nullptr, method);
     EXPECT_EQ(result.outcome, edem::PrestressOutcome::Failed);
     EXPECT_NE(result.reason, "");
-    for (const auto& u : body.displacement) EXPECT_EQ(u.norm(), 0);
+    for (const auto& u : body.state.displacement) EXPECT_EQ(u.norm(), 0);
   }
 }
 
@@ -107,27 +107,27 @@ TYPED_TEST(Prestress, TooHeavyForItsStiffnessIsLeftAsItWas) {
   const edem::PrestressResult result = edem::prestress(body, kGravity);
   EXPECT_EQ(result.outcome, edem::PrestressOutcome::Failed);
   EXPECT_NE(result.reason.find("too heavy"), std::string::npos) << result.reason;
-  for (const auto& u : body.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
-  for (const auto& q : body.rotation) EXPECT_EQ(q.w(), TypeParam(1));
+  for (const auto& u : body.state.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
+  for (const auto& q : body.state.rotation) EXPECT_EQ(q.w(), TypeParam(1));
 }
 
 TYPED_TEST(Prestress, DoesNothingWithoutAnAnchor) {
   auto body = edem::makeBody<TypeParam>(block({2, 2, 2}), 0);
   EXPECT_EQ(edem::prestress(body, kGravity).outcome, edem::PrestressOutcome::NotAnchored);
-  for (const auto& u : body.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
+  for (const auto& u : body.state.displacement) EXPECT_EQ(u.norm(), TypeParam(0));
 }
 
 // Takes an element's springs away, and the element too if it is crushed.
 template <class Real>
 void cutOut(edem::Body<Real>& body, std::uint32_t element, bool crushed) {
-  for (std::size_t s = 0; s < body.springs.size(); ++s) {
-    if (body.springs[s].first != element && body.springs[s].second != element) continue;
-    body.intact[s] = 0;
-    ++body.brokenCount;
-    if (body.isAnchor(s)) --body.anchorsIntact;
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
+    if (body.state.springs[s].first != element && body.state.springs[s].second != element) continue;
+    body.state.intact[s] = 0;
+    ++body.state.brokenCount;
+    if (body.isAnchor(s)) --body.state.anchorsIntact;
   }
-  body.alive[element] = !crushed;
-  body.crushedCount += crushed;
+  body.state.alive[element] = !crushed;
+  body.state.crushedCount += crushed;
   edem::labelFragments(body);
 }
 
@@ -137,7 +137,7 @@ TYPED_TEST(Prestress, GoesRoundCrushedElements) {
     cutOut(body, 37, true);
     const edem::PrestressResult result = edem::prestress(body, kGravity, nullptr, method);
     ASSERT_EQ(result.outcome, edem::PrestressOutcome::Done) << result.reason;
-    EXPECT_EQ(body.displacement[37].norm(), TypeParam(0));
+    EXPECT_EQ(body.state.displacement[37].norm(), TypeParam(0));
   }
 }
 
@@ -152,7 +152,7 @@ TYPED_TEST(Prestress, DoesNothingWhenAPartHangsOnNoAnchor) {
 double farthestApart(const edem::Body<double>& a, const edem::Body<double>& b) {
   double apart = 0;
   for (std::size_t i = 0; i < a.elementCount(); ++i)
-    apart = std::max(apart, (a.displacement[i] - b.displacement[i]).norm());
+    apart = std::max(apart, (a.state.displacement[i] - b.state.displacement[i]).norm());
   return apart;
 }
 
@@ -171,7 +171,7 @@ TEST(PrestressMethods, AgreeOnAWallThatBends) {
   EXPECT_EQ(a.iterations, 0);
   EXPECT_GT(b.iterations, 0);
   double largest = 0;
-  for (const auto& u : direct.displacement) largest = std::max(largest, u.norm());
+  for (const auto& u : direct.state.displacement) largest = std::max(largest, u.norm());
   // Both leave 1e-6 of an element's weight, and there are 600.
   EXPECT_LT(farthestApart(direct, grouped), 1e-4 * largest);
   auto again = edem::makeBody<double>(def, 0);
@@ -218,8 +218,8 @@ TYPED_TEST(Prestress, ACachedStateIsTheSolvedOneBitByBit) {
   ASSERT_EQ(edem::prestress(taken, kGravity, &cache).outcome, edem::PrestressOutcome::Cached);
   EXPECT_EQ(cache.size(), 1u);
   for (std::size_t i = 0; i < solved.elementCount(); ++i) {
-    EXPECT_EQ(solved.displacement[i], taken.displacement[i]);
-    EXPECT_EQ(solved.rotation[i].coeffs(), taken.rotation[i].coeffs());
+    EXPECT_EQ(solved.state.displacement[i], taken.state.displacement[i]);
+    EXPECT_EQ(solved.state.rotation[i].coeffs(), taken.state.rotation[i].coeffs());
   }
 }
 

@@ -25,20 +25,21 @@ double highestFrequency2(edem::Body<double> body) {
   double eigenvalue = 0;
   edem::Books books;
   for (int round = 0; round < 400; ++round) {
-    edem::beginSubstep(body);
+    edem::beginSubstep(body.state, body.work);
     for (Eigen::Index i = 0; i < n; ++i) {
       const std::size_t e = std::size_t(i);
       // Scaled by the roots of mass and inertia, so that the operator is symmetric.
-      body.displacement[e] = kSmall / std::sqrt(body.mass[e]) * x.segment<3>(6 * i);
-      const Eigen::Vector3d half = 0.5 * kSmall / std::sqrt(body.inertia[e]) * x.segment<3>(6 * i + 3);
-      body.rotation[e] = edem::Quat<double>(1, half.x(), half.y(), half.z()).normalized();
+      body.state.displacement[e] = kSmall / std::sqrt(body.constants->mass[e]) * x.segment<3>(6 * i);
+      const Eigen::Vector3d half =
+          0.5 * kSmall / std::sqrt(body.constants->inertia[e]) * x.segment<3>(6 * i + 3);
+      body.state.rotation[e] = edem::Quat<double>(1, half.x(), half.y(), half.z()).normalized();
     }
-    edem::accumulateSprings(body, 0, false, books);
+    edem::accumulateSprings(body, body.work, 0, false, books);
     Eigen::VectorXd y(6 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const std::size_t e = std::size_t(i);
-      y.segment<3>(6 * i) = -body.force[e] / (kSmall * std::sqrt(body.mass[e]));
-      y.segment<3>(6 * i + 3) = -body.torque[e] / (kSmall * std::sqrt(body.inertia[e]));
+      y.segment<3>(6 * i) = -body.work.force[e] / (kSmall * std::sqrt(body.constants->mass[e]));
+      y.segment<3>(6 * i + 3) = -body.work.torque[e] / (kSmall * std::sqrt(body.constants->inertia[e]));
     }
     eigenvalue = x.dot(y);
     x = y.normalized();
@@ -62,8 +63,8 @@ TEST(StableStep, BoundsTheTrueHighestFrequency) {
 double energyGrowth(double step, int substeps) {
   OneBody<double> one(block({3, 3, 3}));
   Numbers numbers;
-  for (auto& v : one.body().velocity) v = numbers.vector(1e-3);
-  for (auto& w : one.body().spin) w = numbers.vector(1e-2);
+  for (auto& v : one.body().state.velocity) v = numbers.vector(1e-3);
+  for (auto& w : one.body().state.spin) w = numbers.vector(1e-2);
   double first = 0, most = 0;
   for (int n = 0; n < substeps; ++n) {
     one.substep(step, false);

@@ -35,10 +35,10 @@ TEST(PackedStiffness, EvenStrainTurnsNoElementInside) {
   for (int axis = 0; axis < 3; ++axis) {
     auto body = edem::makeBody<double>(def, 0);
     for (std::size_t i = 0; i < body.elementCount(); ++i)
-      body.displacement[i][axis] = kStrain * asset.positions[i][axis];
+      body.state.displacement[i][axis] = kStrain * asset.positions[i][axis];
     edem::Books books;
-    edem::beginSubstep(body);
-    edem::accumulateSprings(body, 0, false, books);
+    edem::beginSubstep(body.state, body.work);
+    edem::accumulateSprings(body, body.work, 0, false, books);
     const double stress = def.material.youngsModulus * kStrain;
     double turning = 0, pushing = 0;
     int inside = 0;
@@ -47,8 +47,8 @@ TEST(PackedStiffness, EvenStrainTurnsNoElementInside) {
       if (std::any_of(faces.begin(), faces.end(),
                       [](const CellFace& f) { return f.neighbour == kNoElement; }))
         continue;
-      turning = std::max(turning, body.torque[i].norm() / (stress * asset.volumes[i]));
-      pushing = std::max(pushing, body.force[i].norm() / (stress * std::pow(asset.volumes[i], 2.0 / 3)));
+      turning = std::max(turning, body.work.torque[i].norm() / (stress * asset.volumes[i]));
+      pushing = std::max(pushing, body.work.force[i].norm() / (stress * std::pow(asset.volumes[i], 2.0 / 3)));
       ++inside;
     }
     ASSERT_GT(inside, 20);
@@ -85,7 +85,7 @@ TEST(PackedStiffness, CantileverSagsAsTimoshenkoSays) {
     for (std::size_t i = 0; i < body.elementCount(); ++i) {
       const double x = def.asset->positions[i].x() + kLength / 2;
       if (x < 0.9 * kLength) continue;
-      ratio -= body.displacement[i].y() / sagOfBeam(kLength, kHeight, x, def.material);
+      ratio -= body.state.displacement[i].y() / sagOfBeam(kLength, kHeight, x, def.material);
       ++count;
     }
     EXPECT_NEAR(ratio / count, 1, 0.08) << elements;
