@@ -71,10 +71,10 @@ void describeNeeds(const Scene& scene, std::ostream& out) {
 
 }  // namespace
 
-void describeScene(const Scene& scene, std::ostream& stream) {
+void describeScene(const Scene& scene, const CacheOptions& cache, std::ostream& stream) {
   std::ostringstream out;  // told when all is known: an error leaves no half table
   const double before = memoryInUse();
-  const Assets assets = cookWithProgress(scene);
+  const Assets assets = cookWithProgress(scene, cache);
   const double cooked = memoryInUse();
   World world(scene, assets, consoleLog());
   const double built = memoryInUse();

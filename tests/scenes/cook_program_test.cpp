@@ -10,6 +10,7 @@
 #include "demo/world.h"
 #include "rubble/asset.h"
 #include "scenes/program.h"
+#include "unit/cook/shapes.h"
 
 namespace rubble::test {
 namespace {
@@ -270,6 +271,40 @@ TEST_F(CookProgram, ScenesTakeMeshesAndAssets) {
                  R"({"extends": "mesh.json", "objects": [{"asset": "box.rubble-asset"}]})");
   EXPECT_EQ(run("run below/asset.json --no-render").exitCode, 0);
   EXPECT_EQ(lastHash("out/mesh/stats.jsonl"), lastHash("out/asset/stats.jsonl"));
+}
+
+// A run of what was cooked before is the run of what is cooked now, to the last bit, and what is kept is the
+// file that `rubble cook` makes.
+TEST_F(CookProgram, ScenesTakeFromTheCacheWhatTheyCookedBefore) {
+  m_folder.write("box.obj", kBox);
+  m_folder.write("mesh.json", R"({"frames": 3, "statics": [{"shape": "plane"}],
+      "impactors": [{"shape": "sphere", "mass": 50, "radius": 0.1, "position": [1, 0.5, -0.2], "velocity": [0, 0, 10]}],
+      "objects": [{"mesh": "box.obj", "elements": 60, "anchor": [0, -1, 0]}]})");
+  const auto hashOf = [&](const std::string& options, const std::string& words) {
+    const ChildResult result = run("run mesh.json --no-render " + options);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_NE(result.error.find(words), std::string::npos) << options << '\n' << result.error;
+    return lastHash("out/mesh/stats.jsonl");
+  };
+  const std::string fresh = hashOf("--no-cache", "mesh: cooking, ");
+  EXPECT_EQ(hashOf("--cache kept", "mesh: cooking, "), fresh);
+  EXPECT_EQ(hashOf("--cache kept", "mesh: taken from kept/"), fresh);
+  EXPECT_EQ(hashOf("--no-cache", "mesh: cooking, "), fresh);
+  EXPECT_NE(run("info mesh.json --cache kept").error.find("taken from kept/"), std::string::npos);
+  EXPECT_NE(hashOf("--cache kept --seed 2", "mesh: cooking, "), fresh);
+
+  ASSERT_EQ(run("cook box.obj -o box.rubble-asset --elements 60 --anchor 0,-1,0").exitCode, 0);
+  bool isKept = false;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder.path() / "kept"))
+    isKept = isKept || fileBytes(entry.path()) == fileBytes(m_folder.path() / "box.rubble-asset");
+  EXPECT_TRUE(isKept);
+
+  // Without a word of it, beside the caches of other programs.
+  m_folder.write("other.json", R"({"extends": "mesh.json", "seed": 3})");
+  run("info other.json");
+  EXPECT_NE(run("info other.json").error.find("other: taken from " + childCache().string() + "/rubble/"),
+            std::string::npos);
+  expectError(run("run mesh.json --cache kept --no-cache"), 2, "--no-cache");
 }
 
 // The box at geo-coordinates, an easting and a northing, all of whose corners doubles hold.
