@@ -97,6 +97,36 @@ TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
+// The counts are those of the asset's own list, and of its cells where it has none.
+TEST_F(CookProgram, InfoTellsTheMaterials) {
+  std::string painted = kBox;
+  painted.insert(painted.find("f 1 4"), "usemtl old stone\n");
+  painted.insert(painted.find("f 5 6"), "usemtl paint\n");
+  m_folder.write("painted.obj", painted);
+  m_folder.write("box.obj", kBox);
+  const auto lineOf = [](std::size_t number, const std::string& name, std::size_t count) {
+    return std::to_string(number) + ", " + name + ": " + std::to_string(count) + " triangles\n";
+  };
+  for (const char* name : {"painted", "box"})
+    ASSERT_EQ(run(std::string("cook ") + name + ".obj -o " + name + ".rubble-asset --elements 50").exitCode,
+              0);
+  const std::vector<std::uint16_t> materials = cooked("painted.rubble-asset").materials;
+  const auto countOf = [&](int m) { return std::size_t(std::ranges::count(materials, m)); };
+  ASSERT_GT(std::min({countOf(0), countOf(1), countOf(2)}), 1u);
+  const std::string info = run("info painted.rubble-asset").out;
+  for (const std::string& line : {"materials             " + lineOf(0, "old stone", countOf(0)),
+                                  lineOf(1, "paint", countOf(1)), lineOf(2, "inner faces", countOf(2))})
+    EXPECT_NE(info.find(line), std::string::npos) << line << " in\n" << info;
+
+  const Asset box = cooked("box.rubble-asset");
+  std::size_t outer = 0;
+  for (const Cell& cell : box.cells) outer += cell.outerTriangles;
+  const std::string plain = run("info box.rubble-asset").out;
+  for (const std::string& line :
+       {lineOf(0, "the mesh, without a name", outer), lineOf(1, "inner faces", box.triangles.size() - outer)})
+    EXPECT_NE(plain.find(line), std::string::npos) << line << " in\n" << plain;
+}
+
 TEST_F(CookProgram, TakesTheOtherFormats) {
   m_folder.write("a.off", kCorner);
   m_folder.write("b.stl", cornerAsBinaryStl());
