@@ -29,7 +29,8 @@ struct Raw {
   std::vector<std::string> sets, sweeps, reported;
   std::optional<std::string> frames, seed, anchor, error;
   std::optional<int> cases;
-  bool noRender = false;
+  std::filesystem::path cache;
+  bool noRender = false, noCache = false;
 };
 
 int defaultThreads() {
@@ -82,6 +83,16 @@ void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw, bool withScene 
   app.add_option("--frames", raw.frames, "number of frames");
   app.add_option("--seed", raw.seed, "seed of packing and debris");
   app.add_option("--threads", line.run.threads, "of the dust grid")->check(CLI::Range(1, kMostThreads));
+  addPath(app, "--cache", raw.cache,
+          "folder where cooked objects are kept for the next run, default $XDG_CACHE_HOME/rubble or "
+          "~/.cache/rubble; the oldest beyond 1 GiB go");
+  app.add_flag("--no-cache", raw.noCache, "cook all objects anew and keep none")->excludes("--cache");
+}
+
+CacheOptions cacheOf(const Raw& raw) {
+  if (raw.noCache) return {};
+  if (raw.cache.empty()) return {.folder = usualCacheFolder()};
+  return {.folder = raw.cache, .isAsked = true};
 }
 
 void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
@@ -345,6 +356,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
   if (raw.error) line.error = parseErrorShare(*raw.error);
   checkAsset(line);
   line.report.overrides = line.overrides;
+  line.run.cache = line.view.cache = line.report.cache = cacheOf(raw);
   line.run.render = !raw.noRender;
   parseSize(raw.size, line.run.width, line.run.height);
   line.view.width = line.run.width;

@@ -12,11 +12,10 @@ LogFunction consoleLog() {
   };
 }
 
-Assets cookWithProgress(const Scene& scene, const LogFunction& log) {
+Assets cookWithProgress(const Scene& scene, const CacheOptions& cache, const LogFunction& log) {
   Progress progress(scene.name);
   return cookObjects(
-      scene, [&](double share, const char* stage) { progress.show(share, std::string("cooking, ") + stage); },
-      log);
+      scene, [&](double share, const char* what) { progress.show(share, what); }, log, cache);
 }
 
 }  // namespace rubble::demo

@@ -9,6 +9,6 @@ namespace rubble::demo {
 LogFunction consoleLog();
 
 /// cookObjects with a line of progress on stderr.
-Assets cookWithProgress(const Scene& scene, const LogFunction& log = consoleLog());
+Assets cookWithProgress(const Scene& scene, const CacheOptions& cache, const LogFunction& log = consoleLog());
 
 }  // namespace rubble::demo

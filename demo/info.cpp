@@ -27,12 +27,40 @@ std::ostream& row(std::ostream& out, const std::string& name) {
   return out << "  " << std::left << std::setw(kNameWidth) << name;
 }
 
+// How many triangles have each material; the last one is that of inner faces.
+std::vector<std::size_t> trianglesOf(const Asset& asset) {
+  std::vector<std::size_t> counts(asset.innerMaterial() + 1);
+  for (const std::uint16_t material : asset.materials) ++counts[material];
+  if (!asset.materials.empty()) return counts;
+  for (const Cell& cell : asset.cells) {
+    counts.front() += cell.outerTriangles;
+    counts.back() += cell.innerTriangles;
+  }
+  return counts;
+}
+
+// A line each: the mesh's, which may have no name, then the inner faces.
+void describeMaterials(const Asset& asset, std::ostream& out) {
+  const std::vector<std::size_t> counts = trianglesOf(asset);
+  for (std::size_t m = 0; m < counts.size(); ++m) {
+    const bool isInner = m + 1 == counts.size();
+    row(out, m == 0 ? "materials" : "")
+        << m << ", "
+        << (isInner                       ? "inner faces"
+            : asset.materialNames.empty() ? "the mesh, without a name"
+                                          : asset.materialNames[m])
+        << ": " << counts[m] << (counts[m] == 1 ? " triangle\n" : " triangles\n");
+  }
+}
+
 void describe(const Asset& asset, std::ostream& out) {
   row(out, "elements") << asset.elementCount() << ", radius " << asset.radius << " m\n";
   row(out, "origin") << shown(asset.origin) << " m in the mesh's coordinates\n";
   row(out, "springs") << asset.springs.size() << " and " << asset.anchors.size() << " anchors\n";
   row(out, "volume") << asset.volume() << " m^3, spacing " << asset.spacing() << " m\n";
-  row(out, "cell meshes") << asset.triangles.size() << " triangles\n";
+  row(out, "cell meshes") << asset.triangles.size() << " triangles, "
+                          << (asset.uvs.empty() ? "no" : "the mesh's") << " texture coordinates\n";
+  describeMaterials(asset, out);
 }
 
 bool needsGl(const Scene& scene) {
@@ -71,10 +99,10 @@ void describeNeeds(const Scene& scene, std::ostream& out) {
 
 }  // namespace
 
-void describeScene(const Scene& scene, std::ostream& stream) {
+void describeScene(const Scene& scene, const CacheOptions& cache, std::ostream& stream) {
   std::ostringstream out;  // told when all is known: an error leaves no half table
   const double before = memoryInUse();
-  const Assets assets = cookWithProgress(scene);
+  const Assets assets = cookWithProgress(scene, cache);
   const double cooked = memoryInUse();
   World world(scene, assets, consoleLog());
   const double built = memoryInUse();

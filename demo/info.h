@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <ostream>
 
+#include "demo/asset_cache.h"
 #include "demo/scene.h"
 
 namespace rubble::demo {
 
 /// Cooks the scene and builds its world, but simulates nothing. Throws InputError.
-void describeScene(const Scene& scene, std::ostream& out);
+void describeScene(const Scene& scene, const CacheOptions& cache, std::ostream& out);
 
 /// True for the name of a cooked asset rather than of a scene.
 bool isAssetFile(const std::string& nameOrPath);

@@ -47,7 +47,7 @@ void execute(const CommandLine& line) {
       viewScene(scene, line.view);
       break;
     case CommandLine::Command::Info:
-      describeScene(scene, std::cout);
+      describeScene(scene, line.run.cache, std::cout);
       break;
     case CommandLine::Command::Report:
       report(line.report, std::cout);

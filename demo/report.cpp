@@ -73,8 +73,9 @@ struct Outcome {
   Summary summary;
 };
 
-Outcome measure(const Scene& scene, Progress& progress, double done, double share) {
-  World world(scene, cookObjects(scene), consoleLog());
+Outcome measure(const Scene& scene, const CacheOptions& cache, Progress& progress, double done,
+                double share) {
+  World world(scene, cookObjects(scene, {}, {}, cache), consoleLog());
   Recorder recorder(world, {}, {});
   FrameParts parts{.world = &world, .recorder = &recorder};
   Outcome outcome;
@@ -174,7 +175,7 @@ void report(const ReportOptions& options, std::ostream& out) {
   std::vector<Outcome> outcomes;
   const double share = 1.0 / double(scenes.size());
   for (const Scene& scene : scenes)
-    outcomes.push_back(measure(scene, progress, share * double(outcomes.size()), share));
+    outcomes.push_back(measure(scene, options.cache, progress, share * double(outcomes.size()), share));
 
   const std::vector<Column> columns = columnsOf(sweepsOf(options), outcomes);
   const std::string markdown = markdownTable(rowsOf(columns, &Column::title));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/asset_cache.h"
 #include "demo/scene.h"
 #include "rubble/version.h"
 
@@ -27,6 +28,7 @@ struct ReportOptions {
   /// Empty: precision and substep, see defaultSweeps.
   std::vector<Sweep> sweeps;
   std::filesystem::path folder;  ///< of the CSV; empty: out/report
+  CacheOptions cache = {};       ///< of cooked objects
   std::filesystem::path write;   ///< a Markdown file that holds this report's markers; empty: none
 };
 

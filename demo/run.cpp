@@ -73,7 +73,7 @@ Summary runScene(const Scene& scene, const RunOptions& given, std::ostream& repo
   const std::unique_ptr<Canvas> canvas = options.render ? makeCanvas(options.width, options.height) : nullptr;
   const std::unique_ptr<DustGrid> dust =
       makeDust(scene, canvas ? currentRenderer() : Renderer3D::None, options.threads);
-  World world(scene, cookWithProgress(scene, options.log), options.log);
+  World world(scene, cookWithProgress(scene, options.cache, options.log), options.log);
   const std::unique_ptr<Stage> stage = canvas ? makeStage(world) : nullptr;
 
   makeFolder(options.out);

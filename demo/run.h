@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 
+#include "demo/asset_cache.h"
 #include "demo/recorder.h"
 #include "demo/scene.h"
 #include "rubble/error.h"
@@ -18,7 +19,8 @@ struct RunOptions {
   bool render = true;                 ///< false: no GL context is made and no GL library loaded
   int width = 1280, height = 720;
   int threads = 1;
-  LogFunction log = {};  ///< of cooking and of the world; empty: consoleLog()
+  CacheOptions cache = {};  ///< of cooked objects
+  LogFunction log = {};     ///< of cooking and of the world; empty: consoleLog()
 };
 
 /// Runs the scene and tells on `report` what happened. Throws InputError before anything is written,

@@ -84,7 +84,7 @@ std::unique_ptr<GlfwWindow> openWindow(const Scene& scene, const ViewOptions& op
 
 void viewScene(const Scene& scene, const ViewOptions& options) {
   const std::unique_ptr<GlfwWindow> window = openWindow(scene, options);  // or fails at once
-  const Assets assets = cookWithProgress(scene);
+  const Assets assets = cookWithProgress(scene, options.cache);
   Panel panel(window->handle(), scene);
   OrbitCamera camera(sceneCamera(scene.camera));
   Pace pace(scene.fps);

@@ -1,6 +1,7 @@
 // `rubble view`: a scene in a window, with a camera to orbit and balls to shoot.
 #pragma once
 
+#include "demo/asset_cache.h"
 #include "demo/scene.h"
 
 namespace rubble::demo {
@@ -8,6 +9,7 @@ namespace rubble::demo {
 struct ViewOptions {
   int width = 1280, height = 720;
   int threads = 1;
+  CacheOptions cache = {};  ///< of cooked objects
   bool closeAtEnd = false;  ///< close after the scene's frames rather than go on
 };
 

@@ -2,17 +2,14 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "base/hash.h"
 #include "bullet/convert.h"
-#include "demo/input_error.h"
 #include "demo/keys.h"
 #include "demo/overlaps.h"
-#include "demo/primitives.h"
+#include "demo/refuse_at.h"
 #include "demo/scene_advice.h"
-#include "demo/solid.h"
 #include "demo/substeps.h"
 #include "demo/words.h"
 #include "rubble/limits.h"
@@ -91,82 +88,7 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   return def;
 }
 
-// An object before the long work: its surface, or what was cooked before.
-struct Uncooked {
-  std::optional<SurfaceMesh> mesh;
-  std::optional<Asset> asset;
-};
-
-// The surface in the object's file, mended where the scene says so.
-SurfaceMesh readObject(const SceneObject& object, const LogFunction& log) {
-  const SurfaceMesh mesh = readSolid(object.mesh, object.scale);
-  if (!object.repair) return mesh;
-  return repairSolid(mesh, [&](LogLevel level, const std::string& line) {
-    if (log) log(level, object.mesh.string() + ": " + line);
-  });
-}
-
-Uncooked uncookedObject(const Scene& scene, std::size_t index, const LogFunction& log) {
-  const SceneObject& object = scene.objects[index];
-  Uncooked uncooked;
-  if (!object.asset.empty()) {
-    uncooked.asset = load(object.asset);
-    requireSubsteps(scene, index, uncooked.asset->volume(), uncooked.asset->elementCount());
-    return uncooked;
-  }
-  uncooked.mesh = object.mesh.empty() ? primitiveMesh(object) : readObject(object, log);
-  requireSubsteps(scene, index, volumeOf(*uncooked.mesh), object.elements);
-  return uncooked;
-}
-
-Asset cookObject(const SceneObject& object, Uncooked uncooked, std::uint64_t seed,
-                 const ProgressFunction& progress, const LogFunction& log) {
-  if (uncooked.asset) return std::move(*uncooked.asset);
-  CookOptions options;
-  options.elements = object.elements;
-  options.radius = object.radius;
-  options.fill = object.fill;
-  options.seed = seed;
-  options.anchorDirection = object.anchor;
-  if (object.mesh.empty()) return cook(*uncooked.mesh, options, progress, log);
-  options.anchorBand = anchorBandOf(*uncooked.mesh);
-  try {
-    return cook(*uncooked.mesh, options, progress, log);
-  } catch (const Error& error) {
-    const std::string refusal = error.what();
-    throw Error(object.mesh.string() + ": " + refusal +
-                (object.repair ? "" : repairHint(*uncooked.mesh, refusal, "\"repair\": true")));
-  }
-}
-
-// Does `work` on one object of the scene; what the library refuses there becomes the scene's error, in which
-// the values `others` may have a part.
-template <class Work>
-void refuseAt(const Scene& scene, std::size_t object, const Work& work,
-              const std::vector<std::string>& others = {}) {
-  try {
-    work();
-  } catch (const Error& error) {
-    const std::string name = "objects." + std::to_string(object);
-    throw InputError(scene.blamed(name, others), name, inWordsOfTheScene(error.what()));
-  }
-}
-
 }  // namespace
-
-Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const LogFunction& log) {
-  std::vector<Uncooked> uncooked;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    refuseAt(scene, i, [&] { uncooked.push_back(uncookedObject(scene, i, log)); });
-  Assets assets;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    refuseAt(scene, i, [&] {
-      assets.push_back(std::make_shared<const Asset>(
-          cookObject(scene.objects[i], std::move(uncooked[i]), scene.seed, progress, log)));
-    });
-  }
-  return assets;
-}
 
 World::World(const Scene& scene, const LogFunction& log)
     : m_scene(scene),

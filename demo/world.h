@@ -7,17 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "demo/cooked_objects.h"
 #include "demo/scene.h"
-#include "rubble/cook.h"
 #include "rubble/destruction.h"
 
 namespace rubble::demo {
-
-/// The cooked objects of a scene, in its order. Worlds built from them share them.
-using Assets = std::vector<std::shared_ptr<const Asset>>;
-
-/// Throws InputError when an object cannot be cooked.
-Assets cookObjects(const Scene& scene, const ProgressFunction& progress = {}, const LogFunction& log = {});
 
 class World {
  public:

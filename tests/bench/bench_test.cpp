@@ -8,13 +8,16 @@
 
 #include "base/hash.h"
 #include "bench/asset_hash.h"
+#include "bench/crack_path.h"
 #include "bench/result_table.h"
+#include "bench/site_sets.h"
 #include "bench/topic.h"
 #include "demo/input_error.h"
 #include "demo/marked_text.h"
 #include "scenes/child.h"
 #include "scenes/scene_file.h"
 #include "support/folders.h"
+#include "support/grid_asset.h"
 #include "unit/cook/shapes.h"
 
 namespace rubble::test {
@@ -75,6 +78,33 @@ TEST(AssetHash, KnowsEveryField) {
     change(other);
     EXPECT_NE(hashOf(other), hashOf(cooked)) << field;
   }
+}
+
+// Cubes in rows: a flat crack between two layers is the cheapest, and each axis has a third of the springs.
+// Along a diagonal a crack is a staircase, at most sqrt(2) of a flat one.
+TEST(CrackPath, OfCubesIsFlatAlongTheAxes) {
+  constexpr double kEdge = 0.5;
+  const Asset asset = gridAsset({{8, 8, 8}, kEdge, Eigen::Vector3d::Zero(), false});
+  const SurfaceMesh mesh = boxMesh(Eigen::Vector3d::Constant(8 * kEdge), asset.bounds().center());
+  const cooking::CheckedMesh solid = cooking::checkMesh(mesh);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(crackRoughness(asset, solid, Eigen::Vector3d::Unit(axis), 2 * kEdge), 1, 1e-9) << axis;
+  const double diagonal = crackRoughness(asset, solid, Eigen::Vector3d(1, 1, 0).normalized(), 2 * kEdge);
+  EXPECT_GT(diagonal, 1.1);
+  EXPECT_LE(diagonal, std::sqrt(2.0) + 1e-9);
+  EXPECT_NEAR(shareOfOneDirection(asset), 1.0 / 3, 1e-9);
+}
+
+// The box holds whole cells of both lattices.
+TEST(SiteSets, HaveTheCountsAndLieInside) {
+  constexpr std::size_t kCount = 64;
+  const cooking::CheckedMesh solid = cooking::checkMesh(boxMesh({1, 1, 1}));
+  EXPECT_EQ(cubicSites(solid, kCount).size(), kCount);         // 4 x 4 x 4
+  EXPECT_EQ(faceCentredSites(solid, 4 * 27).size(), 4u * 27);  // 3 x 3 x 3 cells of four
+  EXPECT_EQ(lloydSites(solid, kCount, 3).size(), kCount);
+  for (const Sites& sites : {cubicSites(solid, kCount), faceCentredSites(solid, kCount),
+                             lloydSites(solid, kCount, 3), randomSites(solid, kCount)})
+    for (const Eigen::Vector3d& site : sites) EXPECT_LT(site.cwiseAbs().maxCoeff(), 0.5);
 }
 
 TEST(TimeText, HasThreeDigitsAndTheUnitThatSuits) {

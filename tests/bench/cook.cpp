@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "bench/asset_counts.h"
 #include "bench/asset_hash.h"
 #include "bench/processor_time.h"
 #include "bench/topic.h"
@@ -45,19 +46,9 @@ CookOptions optionsOf(const Row& row) {
   return options;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / double(values.size());
-}
-
-double least(const std::vector<double>& values) {
-  return *std::min_element(values.begin(), values.end());
-}
-
 // Of a list that hardly ever is empty: 0 then.
 double meanOrNone(const std::vector<double>& values) {
-  return values.empty() ? 0 : mean(values);
+  return values.empty() ? 0 : meanOf(values);
 }
 
 void countPacking(const Asset& asset, benchmark::UserCounters& counters) {
@@ -74,25 +65,9 @@ void countPacking(const Asset& asset, benchmark::UserCounters& counters) {
       if (distance < 1) overlaps.push_back(100 * (1 - distance));
     }
   }
-  counters["nearest"] = mean(nearest);
-  counters["nearest least"] = least(nearest);
+  counters["nearest"] = meanOf(nearest);
+  counters["nearest least"] = leastOf(nearest);
   counters["overlap"] = meanOrNone(overlaps);
-}
-
-void countCells(const Asset& asset, benchmark::UserCounters& counters) {
-  const auto n = double(asset.elementCount());
-  const auto outer = std::count_if(asset.cells.begin(), asset.cells.end(),
-                                   [](const Cell& c) { return c.outerTriangles > 0; });
-  counters["surface cells"] = 100 * double(outer) / n;
-  std::vector<double> volumes, squares;
-  for (const double volume : asset.volumes) volumes.push_back(volume * n / asset.volume());
-  for (const double volume : volumes) squares.push_back((volume - 1) * (volume - 1));
-  counters["volume deviation"] = std::sqrt(mean(squares));
-  counters["volume least"] = least(volumes);
-  counters["volume most"] = *std::max_element(volumes.begin(), volumes.end());
-  counters["springs"] = 2 * double(asset.springs.size()) / n;  // each at two
-  counters["faces"] = double(asset.faces.size()) / n;
-  counters["triangles"] = double(asset.triangles.size()) / n;
 }
 
 // The stages are those that the cook names to its progress function.

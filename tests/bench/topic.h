@@ -40,6 +40,8 @@ const BenchTopic& benchTopic(const std::string& name);
 
 BenchTopic assetTopic();
 BenchTopic cookTopic();
+BenchTopic cookMemoryTopic();
+BenchTopic cookSitesTopic();
 BenchTopic cookStagesTopic();
 BenchTopic debrisTopic();
 BenchTopic dustTopic();

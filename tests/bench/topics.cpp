@@ -4,8 +4,9 @@
 namespace rubble::test {
 
 const std::vector<BenchTopic>& benchTopics() {
-  static const std::vector<BenchTopic> topics = {assetTopic(),  cookTopic(), cookStagesTopic(),
-                                                 debrisTopic(), dustTopic(), pressureTopic()};
+  static const std::vector<BenchTopic> topics = {assetTopic(),     cookTopic(),       cookMemoryTopic(),
+                                                 cookSitesTopic(), cookStagesTopic(), debrisTopic(),
+                                                 dustTopic(),      pressureTopic()};
   return topics;
 }
 

@@ -10,6 +10,7 @@
 #include "demo/world.h"
 #include "rubble/asset.h"
 #include "scenes/program.h"
+#include "unit/cook/shapes.h"
 
 namespace rubble::test {
 namespace {
@@ -94,6 +95,36 @@ TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
         std::to_string(asset.springs.size()) + " and " + std::to_string(asset.anchors.size()) + " anchors",
         std::string("1 m^3")})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
+}
+
+// The counts are those of the asset's own list, and of its cells where it has none.
+TEST_F(CookProgram, InfoTellsTheMaterials) {
+  std::string painted = kBox;
+  painted.insert(painted.find("f 1 4"), "usemtl old stone\n");
+  painted.insert(painted.find("f 5 6"), "usemtl paint\n");
+  m_folder.write("painted.obj", painted);
+  m_folder.write("box.obj", kBox);
+  const auto lineOf = [](std::size_t number, const std::string& name, std::size_t count) {
+    return std::to_string(number) + ", " + name + ": " + std::to_string(count) + " triangles\n";
+  };
+  for (const char* name : {"painted", "box"})
+    ASSERT_EQ(run(std::string("cook ") + name + ".obj -o " + name + ".rubble-asset --elements 50").exitCode,
+              0);
+  const std::vector<std::uint16_t> materials = cooked("painted.rubble-asset").materials;
+  const auto countOf = [&](int m) { return std::size_t(std::ranges::count(materials, m)); };
+  ASSERT_GT(std::min({countOf(0), countOf(1), countOf(2)}), 1u);
+  const std::string info = run("info painted.rubble-asset").out;
+  for (const std::string& line : {"materials             " + lineOf(0, "old stone", countOf(0)),
+                                  lineOf(1, "paint", countOf(1)), lineOf(2, "inner faces", countOf(2))})
+    EXPECT_NE(info.find(line), std::string::npos) << line << " in\n" << info;
+
+  const Asset box = cooked("box.rubble-asset");
+  std::size_t outer = 0;
+  for (const Cell& cell : box.cells) outer += cell.outerTriangles;
+  const std::string plain = run("info box.rubble-asset").out;
+  for (const std::string& line :
+       {lineOf(0, "the mesh, without a name", outer), lineOf(1, "inner faces", box.triangles.size() - outer)})
+    EXPECT_NE(plain.find(line), std::string::npos) << line << " in\n" << plain;
 }
 
 TEST_F(CookProgram, TakesTheOtherFormats) {
@@ -270,6 +301,40 @@ TEST_F(CookProgram, ScenesTakeMeshesAndAssets) {
                  R"({"extends": "mesh.json", "objects": [{"asset": "box.rubble-asset"}]})");
   EXPECT_EQ(run("run below/asset.json --no-render").exitCode, 0);
   EXPECT_EQ(lastHash("out/mesh/stats.jsonl"), lastHash("out/asset/stats.jsonl"));
+}
+
+// A run of what was cooked before is the run of what is cooked now, to the last bit, and what is kept is the
+// file that `rubble cook` makes.
+TEST_F(CookProgram, ScenesTakeFromTheCacheWhatTheyCookedBefore) {
+  m_folder.write("box.obj", kBox);
+  m_folder.write("mesh.json", R"({"frames": 3, "statics": [{"shape": "plane"}],
+      "impactors": [{"shape": "sphere", "mass": 50, "radius": 0.1, "position": [1, 0.5, -0.2], "velocity": [0, 0, 10]}],
+      "objects": [{"mesh": "box.obj", "elements": 60, "anchor": [0, -1, 0]}]})");
+  const auto hashOf = [&](const std::string& options, const std::string& words) {
+    const ChildResult result = run("run mesh.json --no-render " + options);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_NE(result.error.find(words), std::string::npos) << options << '\n' << result.error;
+    return lastHash("out/mesh/stats.jsonl");
+  };
+  const std::string fresh = hashOf("--no-cache", "mesh: cooking, ");
+  EXPECT_EQ(hashOf("--cache kept", "mesh: cooking, "), fresh);
+  EXPECT_EQ(hashOf("--cache kept", "mesh: taken from kept/"), fresh);
+  EXPECT_EQ(hashOf("--no-cache", "mesh: cooking, "), fresh);
+  EXPECT_NE(run("info mesh.json --cache kept").error.find("taken from kept/"), std::string::npos);
+  EXPECT_NE(hashOf("--cache kept --seed 2", "mesh: cooking, "), fresh);
+
+  ASSERT_EQ(run("cook box.obj -o box.rubble-asset --elements 60 --anchor 0,-1,0").exitCode, 0);
+  bool isKept = false;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder.path() / "kept"))
+    isKept = isKept || fileBytes(entry.path()) == fileBytes(m_folder.path() / "box.rubble-asset");
+  EXPECT_TRUE(isKept);
+
+  // Without a word of it, beside the caches of other programs.
+  m_folder.write("other.json", R"({"extends": "mesh.json", "seed": 3})");
+  run("info other.json");
+  EXPECT_NE(run("info other.json").error.find("other: taken from " + childCache().string() + "/rubble/"),
+            std::string::npos);
+  expectError(run("run mesh.json --cache kept --no-cache"), 2, "--no-cache");
 }
 
 // The box at geo-coordinates, an easting and a northing, all of whose corners doubles hold.
