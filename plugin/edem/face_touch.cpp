@@ -107,6 +107,7 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
                       Eigen::Vector3d::Zero(),
                       core - m_nearest.distance,
                       1,
+                      0,
                       {}});
 }
 
@@ -159,8 +160,7 @@ Facing FaceTouch::facingOf(const Near& near, const Eigen::Vector3d& point,
 void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                            const ElementPose& pose) {
   for (const ExposedPoint& p : exposure.of(cells, element)) {
-    FaceHit hit;
-    hit.at = p.at;
+    SurfacePoint surface{0, Eigen::Vector3d::Zero()};
     const Near* deepest = nullptr;
     for (const Near& n : m_near) {
       if (!pressesPoints(*n.part)) continue;
@@ -168,18 +168,21 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       // nothing nearer than that point.
       const double above = n.part->kind == Collider::Kind::Mesh ? n.centre.distance - p.at.norm()
                                                                 : n.normal.dot(p.at) + n.centre.distance;
-      if (-above <= hit.depth) continue;
+      if (above >= surface.distance) continue;
       SurfacePoint s{above, n.normal};
       if (n.part->kind != Collider::Kind::Plane) {
         s = nearestOf(n, pose.at + pose.turn * p.at);
         s.normal = pose.turn.transpose() * s.normal;
       }
-      if (-s.distance <= hit.depth) continue;
-      hit.depth = -s.distance;
-      hit.normal = s.normal;
+      if (s.distance >= surface.distance) continue;
+      surface = s;
       deepest = &n;
     }
-    if (!(hit.depth > 0)) continue;
+    if (!(surface.distance < 0)) continue;
+    FaceHit& hit = m_hits.emplace_back();
+    hit.at = p.at;
+    hit.depth = -surface.distance;
+    hit.normal = surface.normal;
     const Eigen::Vector3d area = p.area / cells.unit;
     Eigen::Vector3d normal;
     if (deepest->part->isRound()) {
@@ -192,7 +195,7 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       hit.sliding = -(pose.turn.transpose() * f.slope);
     }
     hit.turning = area.cross(normal);
-    if (hit.weight > 0) m_hits.push_back(hit);
+    if (!(hit.weight > 0)) m_hits.pop_back();
   }
 }
 
@@ -256,13 +259,15 @@ bool FaceTouch::isInAnother(const Near& near, const Eigen::Vector3d& at, double 
   });
 }
 
-double withheldAt(const FaceHit& hit, const ContactLaw<double>& law, const PartingMotion& fragment) {
-  const double parting = hit.normal.dot(fragment.centre + fragment.spin.cross(hit.at));
-  return withheld(law.inelastic, parting, fragment.jolt, fragment.resting);
+void FaceTouch::withhold(const ContactLaw<double>& law, const PartingMotion& fragment) {
+  for (FaceHit& hit : m_hits) {
+    const double parting = hit.normal.dot(fragment.centre + fragment.spin.cross(hit.at));
+    hit.withheld = withheld(law.inelastic, parting, fragment.jolt, fragment.resting);
+  }
 }
 
 FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law,
-                     const ElementMotion& motion, const PartingMotion& fragment, const Steps& steps) {
+                     const ElementMotion& motion, const Steps& steps) {
   for (const FaceHit& hit : hits) {
     const double depth = hit.depth;
     const double speed = -hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
@@ -271,7 +276,7 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     const double pushed = stiffness * depth * touchShare(depth, speed, steps.next, onset);
     const Eigen::Vector3d lever = hit.at.cross(hit.normal);
     const double dashpot = hit.weight * law.damping / std::sqrt(1 + lever.squaredNorm() / motion.gyration);
-    const double kept = 1 - withheldAt(hit, law, fragment);
+    const double kept = 1 - hit.withheld;
     const double whole = std::fmax(0.0, pushed + dashpot * speed), damped = kept * whole - pushed;
     elastic += pushed * hit.normal;
     damping += damped * hit.normal;
@@ -279,9 +284,13 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
     dampingTorque += damped * lever;
     // The forces of the weight's changes.
     const double half = 0.5 * law.stiffness * depth * depth;
-    const Eigen::Vector3d slid = half * hit.sliding, turned = half * hit.turning + hit.at.cross(slid);
-    elastic += slid;
-    damping -= (1 - kept) * slid;
+    Eigen::Vector3d turned = half * hit.turning;
+    if (!hit.sliding.isZero(0)) {  // planes have none
+      const Eigen::Vector3d slid = half * hit.sliding;
+      turned += hit.at.cross(slid);
+      elastic += slid;
+      damping -= (1 - kept) * slid;
+    }
     elasticTorque += turned;
     dampingTorque -= (1 - kept) * turned;
     energy += 0.5 * stiffness * depth * depth;

@@ -32,6 +32,7 @@ struct FaceHit {
   Eigen::Vector3d sliding = Eigen::Vector3d::Zero();  ///< its weight falls by this as it moves [1/m]
   double depth = 0;                                   ///< > 0 [m]
   double weight = 0;                                  ///< stiffness over k_n
+  double withheld = 0;                                ///< share of its force that is, by withhold()
   CornerName corner;                                  ///< that of the rigid body's that is in the element
 };
 
@@ -39,6 +40,13 @@ struct FaceHit {
 struct ElementPose {
   Eigen::Vector3d at;    ///< [m]
   Eigen::Matrix3d turn;  ///< from the axes of the element at rest
+};
+
+/// Motion of an element's fragment relative to a rigid body, in the same axes and about the same point.
+struct PartingMotion {
+  Eigen::Vector3d centre, spin;
+  double jolt;     ///< see withheld in fragment_motion.h [m/s]
+  double resting;  ///< share of the force, see resting_loads.h
 };
 
 /// Finds the hits of elements at rigid bodies. Keeps its memory between calls.
@@ -60,6 +68,9 @@ class FaceTouch {
   void findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                    const ElementPose& pose);
   void add(const FaceHit& hit) { m_hits.push_back(hit); }
+  /// Notes at every hit what it withholds of its force by the speed at which the fragment parts there, see
+  /// withheld in fragment_motion.h.
+  void withhold(const ContactLaw<double>& law, const PartingMotion& fragment);
   std::span<const FaceHit> hits() const { return m_hits; }
   /// Takes change(hit) [m] off the depth of every hit; those that have none left are hits no more.
   template <class Change>
@@ -137,17 +148,6 @@ struct ElementMotion {
   double gyration;  ///< of the element, inertia / mass [m^2]
 };
 
-/// Motion of an element's fragment relative to a rigid body, in the same axes and about the same point.
-struct PartingMotion {
-  Eigen::Vector3d centre, spin;
-  double jolt;     ///< see withheld in fragment_motion.h [m/s]
-  double resting;  ///< share of the force, see resting_loads.h
-};
-
-/// What a hit withholds of its force by the speed at which the fragment parts there, see withheld in
-/// fragment_motion.h.
-double withheldAt(const FaceHit& hit, const ContactLaw<double>& law, const PartingMotion& fragment);
-
 /// The normal forces of all hits as one contact; axes of the element at rest, torques about its centre.
 struct FacePress {
   Eigen::Vector3d elastic = Eigen::Vector3d::Zero(), damping = Eigen::Vector3d::Zero();              // [N]
@@ -161,9 +161,9 @@ struct FacePress {
   double energy = 0;                                 // [J]
 
   /// Each hit has its share of the law's dashpot, less at a lever, where the
-  /// element is lighter, never pulls, and withholds force by the speed at which the fragment parts there.
+  /// element is lighter, never pulls, and withholds what was noted at it.
   FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, const ElementMotion& motion,
-            const PartingMotion& fragment, const Steps& steps);
+            const Steps& steps);
 };
 
 /// Sum of the weights that corners or the sphere of the body may have within `reach` of `at` (frame of the

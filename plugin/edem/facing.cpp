@@ -12,9 +12,7 @@ constexpr double kNear = 4;
 // visit(depth, normal) for every side that a point is under, in the part's own frame.
 template <class Visit>
 void visitSides(const Collider& part, const Eigen::Vector3d& p, Visit&& visit) {
-  if (part.kind == Collider::Kind::Plane) {
-    visit(part.rounding + part.offset - part.size.dot(p), part.size);
-  } else if (part.kind == Collider::Kind::Box) {
+  if (part.kind == Collider::Kind::Box) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double side : {-1.0, 1.0})
         visit(part.rounding + part.size[axis] - side * p[axis],
@@ -31,6 +29,8 @@ void visitSides(const Collider& part, const Eigen::Vector3d& p, Visit&& visit) {
 // Shares (1 - (r - 1) / (kNear - 1))^2 of the sides, r: depth over that of the nearest side.
 Facing facing(const Collider& part, const Eigen::Vector3d& point, const Eigen::Vector3d& area) {
   const Eigen::Matrix3d& axes = part.place.linear();
+  if (part.kind == Collider::Kind::Plane)  // has one side
+    return {-(axes.transpose() * area).dot(part.size), axes * part.size, Eigen::Vector3d::Zero()};
   const Eigen::Vector3d p = axes.transpose() * (point - part.place.translation()),
                         a = axes.transpose() * area;
   double least = std::numeric_limits<double>::infinity();

@@ -101,7 +101,6 @@ bool touchSphere(RigidContact& c, const Body<Real>& body, const RigidSide& side,
 struct FaceStep {
   const ContactLaw<double>& law;
   const ElementMotion& motion;
-  const PartingMotion& fragment;
   double moved;  // [s]
   double way;    // further than any point of the element comes [m]
 
@@ -114,7 +113,7 @@ struct FaceStep {
            (hit.turning.dot(motion.spin) + hit.sliding.dot(motion.centre + motion.spin.cross(hit.at)));
   }
   ContactYield<double> yieldOf(const FaceHit& hit, double sunk) const {
-    return {hit.weight * law.stiffness, hit.depth - sunk, nearer(hit), withheldAt(hit, law, fragment)};
+    return {hit.weight * law.stiffness, hit.depth - sunk, nearer(hit), hit.withheld};
   }
 };
 
@@ -123,15 +122,16 @@ struct FaceStep {
 // sum K way withheld (x + D - y) / 2, and on those that grow heavier. The same as ContactYield for one hit of
 // one weight. Returns it [J].
 double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& memory) {
+  if (std::none_of(hits.begin(), hits.end(), [](const FaceHit& hit) { return hit.withheld > 0; })) return 0;
   double a = 0, b = 0, c = 0;  // a y^2 - b y + c = 0
   for (const FaceHit& hit : hits) {
     const double depth = hit.depth - memory.sunk;
     if (!(depth > 0)) continue;
-    const double share = withheldAt(hit, step.law, step.fragment);
     const double way = std::min(step.nearer(hit), depth), nears = std::max(0.0, way);
     a += hit.weight;
-    b += hit.weight * (2 * depth - way + share * nears);
-    c += share * (hit.weight * nears * (2 * depth - way) + std::max(0.0, step.heavier(hit)) * depth * depth);
+    b += hit.weight * (2 * depth - way + hit.withheld * nears);
+    c += hit.withheld *
+         (hit.weight * nears * (2 * depth - way) + std::max(0.0, step.heavier(hit)) * depth * depth);
   }
   if (!(c > 0)) return 0;
   const double yielded = 2 * c / (b + std::sqrt(std::max(0.0, b * b - 4 * a * c)));
@@ -166,9 +166,11 @@ double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& 
 // what the springs lost [J].
 template <class Real>
 double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
-            const RigidSide& side, FaceTouch& faces) {
+            const PartingMotion& fragment, const RigidSide& side, FaceTouch& faces) {
+  faces.withhold(step.law, fragment);
   double lost = sinkFaces(faces.hits(), body.state.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
+  if (!corners.empty()) faces.withhold(step.law, fragment);
   faces.lift([&](const FaceHit& hit) {
     if (hit.corner == CornerName{}) return c.faces.sunk;
     CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
@@ -229,8 +231,8 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
                                parting.jolt, parting.share};
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
-  out.slipped = sink(c, body, corners, {law, own, fragment, moved, 2 * moved * fastest}, side, work.faces);
-  const FacePress press(work.faces.hits(), law, own, fragment, {work.moved, work.steps.next});
+  out.slipped = sink(c, body, corners, {law, own, moved, 2 * moved * fastest}, fragment, side, work.faces);
+  const FacePress press(work.faces.hits(), law, own, {work.moved, work.steps.next});
   if (!(press.weight > 0)) {
     out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);
     return false;
