@@ -34,10 +34,10 @@ std::vector<const ReportCase*> casesOf(const CaseReportOptions& options) {
   return cases;
 }
 
-std::vector<const CaseRun*> runsOf(const ReportCase& c, bool quick) {
+std::vector<const CaseRun*> runsOf(const ReportCase& c, const CaseReportOptions& options) {
   std::vector<const CaseRun*> runs;
   for (const CaseRun& run : c.runs)
-    if (run.quick || !quick) runs.push_back(&run);
+    if ((run.quick || !options.quick) && !(run.namedOnly && options.all)) runs.push_back(&run);
   return runs;
 }
 
@@ -179,7 +179,7 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
   hash.add(kCaseSeed);
   for (const ReportCase* c : casesOf(options)) {
     for (const std::string& text : {c->name, c->what, c->closedForm, c->error}) add(text + "\n");
-    for (const CaseRun* run : runsOf(*c, options.quick)) add(run->method + "\n" + run->setting + "\n");
+    for (const CaseRun* run : runsOf(*c, options)) add(run->method + "\n" + run->setting + "\n");
     if (c->reference) add(referenceHash(*c->reference, versions));
   }
   for (const SolverVersion& version : versions) hash.add(version.world);
@@ -200,13 +200,13 @@ void caseReport(const CaseReportOptions& options, std::ostream& out) {
 
   double all = 0, done = 0;  // [s], as the runs say
   for (const ReportCase* c : cases)
-    for (const CaseRun* run : runsOf(*c, options.quick)) all += run->seconds;
+    for (const CaseRun* run : runsOf(*c, options)) all += run->seconds;
   Progress progress("report");
   TextRows table = {{"case", "method", "setting", "error", "ms a simulated second"}};
   std::string files;
   for (const ReportCase* c : cases) {
     std::vector<CaseRow> rows;
-    for (const CaseRun* run : runsOf(*c, options.quick)) {
+    for (const CaseRun* run : runsOf(*c, options)) {
       progress.show(done / all, c->name + ", " + run->method);
       rows.push_back({run, run->run()});
       done += run->seconds;

@@ -15,6 +15,8 @@ ReportCase hungCase();
 ReportCase waveCase();
 ReportCase strengthCase();
 ReportCase wallBlowCase();
+ReportCase columnBlowCase();
+ReportCase twoFragileBlowCase();
 
 /// Sag of a cantilever of square section under its own weight at the distance x from its root [m], by
 /// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus

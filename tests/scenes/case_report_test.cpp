@@ -110,6 +110,25 @@ TEST(CaseReport, TheHashKnowsTheCasesAndTheSolver) {
   EXPECT_NE(demo::caseReportHash(one, versions), first);
 }
 
+// Settings that are left out of --all are in the report that names all cases.
+TEST(CaseReport, AllLeavesOutWhatIsOfNamedCasesOnly) {
+  demo::CaseReportOptions all, named;
+  all.all = true;
+  for (const demo::ReportCase& c : demo::reportCases()) {
+    named.cases.push_back(c.name);
+    const auto isInAll = [](const demo::CaseRun& run) { return !run.namedOnly; };
+    EXPECT_TRUE(std::ranges::any_of(c.runs, [&](const auto& run) { return run.standard && isInAll(run); }))
+        << c.name;
+  }
+  EXPECT_NE(demo::caseReportHash(all), demo::caseReportHash(named));
+  const demo::ReportCase* column = demo::findReportCase("column_blow");
+  ASSERT_TRUE(column);
+  EXPECT_EQ(std::ranges::count(column->runs, false, &demo::CaseRun::namedOnly), 2);  // it cannot be whole
+  const demo::ReportCase* both = demo::findReportCase("two_fragile_blow");
+  ASSERT_TRUE(both);
+  EXPECT_EQ(std::ranges::count(both->runs, false, &demo::CaseRun::namedOnly), 3);
+}
+
 demo::ReportCase someCase() {
   const auto run = [](const char* method, const char* setting, bool standard) {
     return demo::CaseRun{method, setting, standard, false, {}};
