@@ -95,7 +95,8 @@ void addSummary(TextRows& table, const ReportCase& c, std::span<const CaseRow> r
 std::string notesOf(const std::vector<const ReportCase*>& cases) {
   std::string text;
   for (const ReportCase* c : cases)
-    text += "\n`" + c->name + "`: " + c->what + ". Against " + c->closedForm + ". Error: " + c->error + ".\n";
+    text += "\n`" + c->name + "`: " + c->what + ". Against " + c->closedForm + ". Error: " + c->error + "." +
+            (c->note.empty() ? "" : " " + c->note + ".") + "\n";
   return text + "\nMilliseconds are of one core of " + machineName() + ". Seed " + std::to_string(kCaseSeed) +
          ", commit " + commitName() + ".\n";
 }
@@ -155,6 +156,7 @@ std::string caseSvg(const ReportCase& c, std::span<const CaseRow> rows) {
                  .levelName = "scatter of the reference",
                  .notes = {"Against " + c.closedForm + ".", "On " + machineName() + ".",
                            "Seed " + std::to_string(kCaseSeed) + ", commit " + commitName() + "."}};
+  if (!c.note.empty()) plot.notes.push_back(c.note + ".");
   bool tooSmall = false;
   for (const std::span<const CaseRow> method : methodsOf(rows)) {
     plot.lines.push_back({method.front().run->method, {}});
@@ -179,6 +181,7 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
   hash.add(kCaseSeed);
   for (const ReportCase* c : casesOf(options)) {
     for (const std::string& text : {c->name, c->what, c->closedForm, c->error}) add(text + "\n");
+    if (!c->note.empty()) add(c->note + "\n");
     for (const CaseRun* run : runsOf(*c, options)) add(run->method + "\n" + run->setting + "\n");
     if (c->reference) add(referenceHash(*c->reference, versions));
   }

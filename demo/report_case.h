@@ -47,6 +47,7 @@ struct ReportCase {
   std::string error;       ///< what the error is, and its unit
   std::vector<CaseRun> runs;
   std::optional<ReferenceDef> reference = {};  ///< of a scene; none: a closed form
+  std::string note = {};                       ///< a sentence on the methods; empty: none
 };
 
 /// Seed of every packing in them.

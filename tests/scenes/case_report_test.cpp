@@ -176,12 +176,14 @@ TEST(CaseReport, TheCsvHasTheQuantitiesBesideTheirReference) {
 }
 
 TEST(CaseReport, ThePictureIsXmlAndTellsWhatFailedAndWhatIsTooSmall) {
-  const demo::ReportCase c = someCase();
+  demo::ReportCase c = someCase();
+  c.note = "h is no i";
   const std::vector<demo::CaseRow> rows = {
       {&c.runs[0], {0, 0.002, 0.5}}, {&c.runs[1], {0.1, 1, 1}}, {&c.runs[2], {HUGE_VAL, 1, 1}}};
   const std::string svg = demo::caseSvg(c, rows);
   EXPECT_EQ(faultOfXml(svg), "");
-  for (const char* words : {"Failed: two, 4.", "drawn at 1e-9", "Seed 1, commit ", "b &lt; c &amp; "})
+  for (const char* words :
+       {"Failed: two, 4.", "drawn at 1e-9", "Seed 1, commit ", "b &lt; c &amp; ", "h is no i."})
     EXPECT_NE(svg.find(words), std::string::npos) << words;
 }
 
