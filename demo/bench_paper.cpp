@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <map>
 #include <thread>
 #include <tuple>
@@ -16,6 +15,7 @@
 #include "demo/machine.h"
 #include "demo/marked_text.h"
 #include "demo/output_file.h"
+#include "demo/processor_time.h"
 #include "demo/progress.h"
 #include "demo/settings_hash.h"
 
@@ -94,11 +94,6 @@ RunKey runKeyOf(const BenchRow& row) {
   return {row.scene, row.elements, row.width, row.height, row.dust};
 }
 
-// Processor time of all threads of this process [ms].
-double processorTime() {
-  return 1000 * double(std::clock()) / CLOCKS_PER_SEC;
-}
-
 void addFrame(BenchTimes& sum, const Recorder& recorder, const World& world) {
   const auto& ms = recorder.lastFrame().at("ms");
   const auto of = [&](const char* part) { return ms.at(part).get<double>(); };
@@ -151,7 +146,7 @@ class Bench {
       addFrame(sum, recorder, world);
       showProgress((frame + 1.0) / scene.frames);
     }
-    sum.cores = (processorTime() - began) / watch.lap();
+    sum.cores = 1e3 * (processorTime() - began) / watch.lap();
     ++m_finished;
     return meanOf(sum);
   }

@@ -34,10 +34,10 @@ std::vector<const ReportCase*> casesOf(const CaseReportOptions& options) {
   return cases;
 }
 
-std::vector<const CaseRun*> runsOf(const ReportCase& c, bool quick) {
+std::vector<const CaseRun*> runsOf(const ReportCase& c, const CaseReportOptions& options) {
   std::vector<const CaseRun*> runs;
   for (const CaseRun& run : c.runs)
-    if (run.quick || !quick) runs.push_back(&run);
+    if ((run.quick || !options.quick) && !(run.namedOnly && options.all)) runs.push_back(&run);
   return runs;
 }
 
@@ -95,7 +95,8 @@ void addSummary(TextRows& table, const ReportCase& c, std::span<const CaseRow> r
 std::string notesOf(const std::vector<const ReportCase*>& cases) {
   std::string text;
   for (const ReportCase* c : cases)
-    text += "\n`" + c->name + "`: " + c->what + ". Against " + c->closedForm + ". Error: " + c->error + ".\n";
+    text += "\n`" + c->name + "`: " + c->what + ". Against " + c->closedForm + ". Error: " + c->error + "." +
+            (c->note.empty() ? "" : " " + c->note + ".") + "\n";
   return text + "\nMilliseconds are of one core of " + machineName() + ". Seed " + std::to_string(kCaseSeed) +
          ", commit " + commitName() + ".\n";
 }
@@ -155,6 +156,7 @@ std::string caseSvg(const ReportCase& c, std::span<const CaseRow> rows) {
                  .levelName = "scatter of the reference",
                  .notes = {"Against " + c.closedForm + ".", "On " + machineName() + ".",
                            "Seed " + std::to_string(kCaseSeed) + ", commit " + commitName() + "."}};
+  if (!c.note.empty()) plot.notes.push_back(c.note + ".");
   bool tooSmall = false;
   for (const std::span<const CaseRow> method : methodsOf(rows)) {
     plot.lines.push_back({method.front().run->method, {}});
@@ -179,7 +181,8 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
   hash.add(kCaseSeed);
   for (const ReportCase* c : casesOf(options)) {
     for (const std::string& text : {c->name, c->what, c->closedForm, c->error}) add(text + "\n");
-    for (const CaseRun* run : runsOf(*c, options.quick)) add(run->method + "\n" + run->setting + "\n");
+    if (!c->note.empty()) add(c->note + "\n");
+    for (const CaseRun* run : runsOf(*c, options)) add(run->method + "\n" + run->setting + "\n");
     if (c->reference) add(referenceHash(*c->reference, versions));
   }
   for (const SolverVersion& version : versions) hash.add(version.world);
@@ -200,13 +203,13 @@ void caseReport(const CaseReportOptions& options, std::ostream& out) {
 
   double all = 0, done = 0;  // [s], as the runs say
   for (const ReportCase* c : cases)
-    for (const CaseRun* run : runsOf(*c, options.quick)) all += run->seconds;
+    for (const CaseRun* run : runsOf(*c, options)) all += run->seconds;
   Progress progress("report");
   TextRows table = {{"case", "method", "setting", "error", "ms a simulated second"}};
   std::string files;
   for (const ReportCase* c : cases) {
     std::vector<CaseRow> rows;
-    for (const CaseRun* run : runsOf(*c, options.quick)) {
+    for (const CaseRun* run : runsOf(*c, options)) {
       progress.show(done / all, c->name + ", " + run->method);
       rows.push_back({run, run->run()});
       done += run->seconds;

@@ -7,8 +7,9 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {cantileverCase(), bounceCase(), freeSpinCase(), slideCase(),
-                                                hungCase(),       waveCase(),   wallBlowCase()};
+  static const std::vector<ReportCase> cases = {
+      cantileverCase(), bounceCase(),   freeSpinCase(), slideCase(),      hungCase(),
+      waveCase(),       strengthCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
   return cases;
 }
 

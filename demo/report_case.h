@@ -37,6 +37,7 @@ struct CaseRun {
   std::function<CaseOutcome()> run;
   double seconds = 1;                  ///< about how long it takes, for the time left
   std::vector<Override> changes = {};  ///< that the setting makes to the case's scene, where it has one
+  bool namedOnly = false;              ///< not in `--all`: in reports that name its case
 };
 
 struct ReportCase {
@@ -46,6 +47,7 @@ struct ReportCase {
   std::string error;       ///< what the error is, and its unit
   std::vector<CaseRun> runs;
   std::optional<ReferenceDef> reference = {};  ///< of a scene; none: a closed form
+  std::string note = {};                       ///< a sentence on the methods; empty: none
 };
 
 /// Seed of every packing in them.

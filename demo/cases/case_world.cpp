@@ -49,11 +49,12 @@ void CaseWorld::join(std::unique_ptr<btTypedConstraint> constraint) {
   m_world.addConstraint(m_constraints.back().get(), true);
 }
 
-Destruction& CaseWorld::destruct(Precision precision, double substepSafety, bool sleep) {
+Destruction& CaseWorld::destruct(Precision precision, double substepSafety, bool sleep, bool breaking) {
   DestructionDef def;
   def.precision = precision;
   def.substepSafety = substepSafety;
-  def.breaking = def.crushing = false;
+  def.breaking = breaking;
+  def.crushing = false;
   def.sleep = sleep;
   m_destruction = std::make_unique<Destruction>(m_world, def);
   return *m_destruction;

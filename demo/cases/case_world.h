@@ -30,8 +30,8 @@ class CaseWorld {
   btRigidBody& add(double mass, std::unique_ptr<btCollisionShape> shape, const Eigen::Vector3d& at,
                    bool collides = true);
   void join(std::unique_ptr<btTypedConstraint> constraint);
-  /// Springs do not break in it. Once a world.
-  Destruction& destruct(Precision precision, double substepSafety, bool sleep = false);
+  /// Springs do not break in it unless they are told to. Once a world.
+  Destruction& destruct(Precision precision, double substepSafety, bool sleep = false, bool breaking = false);
 
   /// One tick of Bullet of that length [s].
   void step(double seconds);

@@ -13,7 +13,10 @@ ReportCase freeSpinCase();
 ReportCase slideCase();
 ReportCase hungCase();
 ReportCase waveCase();
+ReportCase strengthCase();
 ReportCase wallBlowCase();
+ReportCase columnBlowCase();
+ReportCase twoFragileBlowCase();
 
 /// Sag of a cantilever of square section under its own weight at the distance x from its root [m], by
 /// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus
@@ -36,5 +39,8 @@ double hungSink(double length, double depth, double density, double modulus, dou
 
 /// How long sound takes along a bar of Poisson's ratio 0 [s]. [m], [kg/m^3], [Pa].
 double waveSeconds(double length, double density, double modulus);
+
+/// Force at which a bar parts that is pulled along [N]. [Pa], [m^2].
+double partingForce(double strength, double area);
 
 }  // namespace rubble::demo

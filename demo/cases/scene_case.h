@@ -13,6 +13,7 @@ struct SceneCaseDef {
   double frameSeconds = 0;   ///< about how long a frame takes at the default setting
   int objects = 1;           ///< that the scene has
   bool wholeBodies = false;  ///< they may also be rigid until something strikes them
+  bool fewInAll = false;     ///< `--all` runs the default, half its substep and whole bodies at the default
 };
 
 /// Runs in both precisions, with fewer of Bullet's ticks, and with whole bodies where there may be some.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -109,6 +110,25 @@ TEST(CaseReport, TheHashKnowsTheCasesAndTheSolver) {
   EXPECT_NE(demo::caseReportHash(one, versions), first);
 }
 
+// Settings that are left out of --all are in the report that names all cases.
+TEST(CaseReport, AllLeavesOutWhatIsOfNamedCasesOnly) {
+  demo::CaseReportOptions all, named;
+  all.all = true;
+  for (const demo::ReportCase& c : demo::reportCases()) {
+    named.cases.push_back(c.name);
+    const auto isInAll = [](const demo::CaseRun& run) { return !run.namedOnly; };
+    EXPECT_TRUE(std::ranges::any_of(c.runs, [&](const auto& run) { return run.standard && isInAll(run); }))
+        << c.name;
+  }
+  EXPECT_NE(demo::caseReportHash(all), demo::caseReportHash(named));
+  const demo::ReportCase* column = demo::findReportCase("column_blow");
+  ASSERT_TRUE(column);
+  EXPECT_EQ(std::ranges::count(column->runs, false, &demo::CaseRun::namedOnly), 2);  // it cannot be whole
+  const demo::ReportCase* both = demo::findReportCase("two_fragile_blow");
+  ASSERT_TRUE(both);
+  EXPECT_EQ(std::ranges::count(both->runs, false, &demo::CaseRun::namedOnly), 3);
+}
+
 demo::ReportCase someCase() {
   const auto run = [](const char* method, const char* setting, bool standard) {
     return demo::CaseRun{method, setting, standard, false, {}};
@@ -156,12 +176,14 @@ TEST(CaseReport, TheCsvHasTheQuantitiesBesideTheirReference) {
 }
 
 TEST(CaseReport, ThePictureIsXmlAndTellsWhatFailedAndWhatIsTooSmall) {
-  const demo::ReportCase c = someCase();
+  demo::ReportCase c = someCase();
+  c.note = "h is no i";
   const std::vector<demo::CaseRow> rows = {
       {&c.runs[0], {0, 0.002, 0.5}}, {&c.runs[1], {0.1, 1, 1}}, {&c.runs[2], {HUGE_VAL, 1, 1}}};
   const std::string svg = demo::caseSvg(c, rows);
   EXPECT_EQ(faultOfXml(svg), "");
-  for (const char* words : {"Failed: two, 4.", "drawn at 1e-9", "Seed 1, commit ", "b &lt; c &amp; "})
+  for (const char* words :
+       {"Failed: two, 4.", "drawn at 1e-9", "Seed 1, commit ", "b &lt; c &amp; ", "h is no i."})
     EXPECT_NE(svg.find(words), std::string::npos) << words;
 }
 
@@ -221,6 +243,44 @@ TEST(CantileverCase, TheSagIsThatOfMohrsIntegral) {
   }
   sag += q * length * length / 2 / (5.0 / 6 * modulus / 2 * height * height);
   EXPECT_NEAR(demo::timoshenkoSag(length, height, length, density, modulus, gravity), sag, 1e-8 * sag);
+}
+
+// Bullet's soft body has the sag at the tick and the iterations that kLST was fitted at, and at no other: a
+// fiftieth of the mean sag, 1.1 % of the length, and more than it.
+TEST(CantileverCase, TheFittedSoftBodySagsSoAtItsOwnTickAlone) {
+  const demo::ReportCase c = demo::cantileverCase();
+  int tried = 0;
+  for (const demo::CaseRun& run : c.runs) {
+    if (run.method != "Bullet's btSoftBody, kLST 0.38, 100 iterations") continue;
+    const double error = run.run().error;
+    if (run.setting == "1000 Hz") {
+      EXPECT_LT(error, 0.011 / 50);
+    } else {
+      EXPECT_GT(error, 0.011) << run.setting;
+    }
+    ++tried;
+  }
+  EXPECT_EQ(tried, 2);
+}
+
+// A breaking impulse of F / 240 Hz is the force F r / 240 Hz at the rate r: parts at 1/4 of it at 60 Hz and
+// at 25/6 at 1000 Hz. Of the elements 5 % is lost to the tick, a hundredth of the force at 60 Hz, and to the
+// packing.
+TEST(StrengthCase, ElementsKeepTheStrengthAtEveryRateAndABreakingImpulseDoesNot) {
+  int elements = 0, bullet = 0;
+  for (const demo::CaseRun& run : demo::strengthCase().runs) {
+    if (run.standard) {
+      EXPECT_LT(run.run().error, 0.05) << run.method;
+      ++elements;
+    }
+    for (const auto& [rate, error] : {std::pair("60 Hz", 0.75), {"240 Hz", 0}, {"1000 Hz", 19.0 / 6}}) {
+      if (run.method != std::string("Bullet's btFixedConstraint, ") + rate) continue;
+      EXPECT_NEAR(run.run().error, error, 0.05) << run.method;
+      ++bullet;
+    }
+  }
+  EXPECT_EQ(elements, 3);
+  EXPECT_EQ(bullet, 3);
 }
 
 // The same blow, step by step.

@@ -121,6 +121,16 @@ TEST_F(SmallReference, IsRefusedWhenItIsNone) {
     EXPECT_NE(refusalOf(m_def, m_folder.path() / name).find("is no reference"), std::string::npos) << name;
 }
 
+// Where nothing else strikes, an object that moves does: in free flight at 5 m/s, its only way.
+TEST_F(SmallReference, AnObjectThatStrikesHasAnExitSpeed) {
+  scene(R"({"gravity": [0, 0, 0], "objects": [
+    {"size": [0.5, 0.5, 0.5], "position": [0, 9, 0], "elements": 30},
+    {"size": [0.5, 0.5, 0.5], "position": [5, 9, 0], "elements": 30, "velocity": [3, 0, 4]}]})");
+  const demo::SceneOutcome run = demo::runToEnd(demo::comparedScene(m_def, {}));
+  EXPECT_EQ(run.quantities.front().name, "exit speed of what is left, m/s");
+  EXPECT_NEAR(run.quantities.front().value, 5, 1e-5);
+}
+
 // What would be divided by.
 TEST_F(SmallReference, IsNotMadeOfARunInWhichNothingBreaks) {
   scene(R"({"objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 9, 0], "elements": 30}]})");
