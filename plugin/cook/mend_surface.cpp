@@ -2,10 +2,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -16,11 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include "base/groups.h"
+#include "cook/unite_parts.h"
 
 namespace rubble::cooking {
 namespace {
@@ -37,8 +35,6 @@ using Sources = Mesh::Property_map<Face, Source>;
 constexpr std::size_t kMostSearchedEdges = 200;
 // Of the size of a hole: what is flatter is triangulated in its plane.
 constexpr double kFlatHole = 1e-3;
-// An overlap of parts below this share of the cubed size of the mesh is none: they touch.
-constexpr double kNoOverlap = 1e-12;
 
 Sources sourcesOf(Mesh& mesh) {
   return mesh.add_property_map<Face, Source>("f:source").first;
@@ -171,45 +167,6 @@ void fillHoles(Soup& soup, const RepairOptions& options, Mended& mended) {
   append(mesh, soup);
 }
 
-// Tells the pieces of a cut triangle whence they come.
-struct KeepSources : Processing::Corefinement::Default_visitor<Mesh> {
-  void before_subface_creations(Face face, Mesh& mesh) { whole = sourcesOf(mesh)[face]; }
-  void after_subface_created(Face face, Mesh& mesh) { sourcesOf(mesh)[face] = whole; }
-  void after_face_copy(Face from, const Mesh& source, Face to, Mesh& target) {
-    sourcesOf(target)[to] = source.property_map<Face, Source>("f:source").first[from];
-  }
-  Source whole;
-};
-
-std::optional<Mesh> unionOf(Mesh first, Mesh second) {
-  Mesh result;
-  sourcesOf(result);
-  try {
-    if (!Processing::corefine_and_compute_union(
-            first, second, result, CGAL::parameters::visitor(KeepSources()).throw_on_self_intersection(true)))
-      return std::nullopt;
-  } catch (const std::exception&) {  // passes through itself, or is too nearly flat for CGAL
-    return std::nullopt;
-  }
-  if (!result.is_valid(false) || !CGAL::is_closed(result) || !CGAL::is_triangle_mesh(result))
-    return std::nullopt;
-  return result;
-}
-
-// 0 where they only touch, at edges and corners.
-double overlapOf(Mesh first, Mesh second) {
-  Mesh result;
-  sourcesOf(result);
-  try {
-    if (!Processing::corefine_and_compute_intersection(
-            first, second, result, CGAL::parameters::visitor(KeepSources()).throw_on_self_intersection(true)))
-      return 1;
-  } catch (const std::exception&) {
-    return 1;
-  }
-  return result.is_empty() ? 0 : std::abs(CGAL::to_double(Processing::volume(result)));
-}
-
 // A closed surface of the soup.
 struct Shell {
   std::vector<std::uint32_t> triangles;
@@ -247,8 +204,6 @@ Shells findShells(const Soup& soup) {
   return shells;
 }
 
-using Crossing = std::array<std::uint32_t, 2>;  // triangles
-
 std::vector<Crossing> findCrossings(const Soup& soup) {
   Mesh mesh = meshOf(soup, allOf(soup));
   std::vector<Face> faces;
@@ -264,24 +219,6 @@ std::vector<Crossing> findCrossings(const Soup& soup) {
 }
 
 using Crossed = std::set<std::array<std::uint32_t, 2>>;  // shells, the smaller first
-
-// A solid with the shells it was made of.
-struct Part {
-  std::vector<std::uint32_t> shells;
-  Mesh mesh;
-  bool isPinched = false;  // touches itself
-};
-
-bool meet(const Part& a, const Part& b, const Crossed& crossed) {
-  for (const std::uint32_t own : a.shells)
-    for (const std::uint32_t other : b.shells)
-      if (crossed.contains({std::min(own, other), std::max(own, other)})) return true;
-  return false;
-}
-
-bool canCut(const Part& a, const Part& b, const Crossed& crossed) {
-  return !a.isPinched && !b.isPinched && meet(a, b, crossed);
-}
 
 // Shells turned inwards that lie inside of one turned outwards which they do not cross are its cavities, also
 // where something else crosses both. Shells that stand alone have no host.
@@ -302,54 +239,6 @@ std::vector<std::uint32_t> findHosts(const Soup& soup, const std::vector<Shell>&
     }
   }
   return hosts;
-}
-
-// Solids of the wanted shells, turned outwards and with their cavities, ready to be cut.
-std::vector<Part> partsOf(const Soup& soup, const std::vector<Shell>& shells, const Crossed& crossed,
-                          const std::vector<bool>& isWanted) {
-  const std::vector<std::uint32_t> hosts = findHosts(soup, shells, crossed, isWanted);
-  std::vector<Part> parts;
-  std::vector<std::vector<std::uint32_t>> shellsOf(shells.size());
-  for (std::uint32_t s = 0; s < shells.size(); ++s)
-    if (isWanted[s]) shellsOf[hosts[s] == kNoElement ? s : hosts[s]].push_back(s);
-  for (std::uint32_t s = 0; s < shells.size(); ++s) {
-    if (shellsOf[s].empty()) continue;
-    std::vector<std::uint32_t> triangles;
-    for (const std::uint32_t shell : shellsOf[s])
-      triangles.insert(triangles.end(), shells[shell].triangles.begin(), shells[shell].triangles.end());
-    Mesh mesh = meshOf(soup, triangles);
-    if (shells[s].volume < 0) Processing::reverse_face_orientations(mesh);
-    Processing::remove_degenerate_faces(mesh);
-    mesh.collect_garbage();
-    const bool isPinched = Processing::does_self_intersect(mesh);  // also once flat triangles are gone
-    parts.push_back({std::move(shellsOf[s]), std::move(mesh), isPinched});
-  }
-  return parts;
-}
-
-// Unites as many of the parts as can be. A union may touch itself, at a corner or an edge: CGAL cannot cut
-// such a one again, it reads memory that is none. So it is taken only if `pinchedToo`.
-void unite(std::vector<Part>& parts, const Crossed& crossed, bool pinchedToo) {
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t j = i + 1; j < parts.size();) {
-      auto whole = canCut(parts[i], parts[j], crossed) ? unionOf(parts[i].mesh, parts[j].mesh) : std::nullopt;
-      const bool isPinched = whole && Processing::does_self_intersect(*whole);
-      if (!whole || (isPinched && !pinchedToo)) {
-        ++j;
-        continue;
-      }
-      parts[i].mesh = *std::move(whole);
-      parts[i].isPinched = isPinched;
-      parts[i].shells.insert(parts[i].shells.end(), parts[j].shells.begin(), parts[j].shells.end());
-      parts.erase(parts.begin() + std::ptrdiff_t(j));
-      j = i + 1;  // what did not meet it before may now
-    }
-}
-
-double cubedSize(const Soup& soup) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : soup.vertices) bounds.extend(vertex);
-  return std::pow(bounds.diagonal().norm(), 3);
 }
 
 using Corners = std::array<Point, 3>;
@@ -378,13 +267,125 @@ bool pierces(const Corners& one, const Corners& other) {
   return false;
 }
 
-// Leaves what passes through another as it is, and says where.
-void tellCrossings(const Soup& soup, const std::vector<Crossing>& crossings, Mended& mended) {
-  for (const auto& [a, b] : crossings) {
-    const Corners one = cornersOf(soup, a), other = cornersOf(soup, b);
-    if (!pierces(one, other) && !pierces(other, one)) continue;
-    if (mended.crossings++ == 0) mended.crossing = soup.vertices[soup.triangles[a][0]];
+// What is told of: where triangles merely touch, nothing is amiss.
+bool pierce(const Soup& soup, const Crossing& crossing) {
+  const Corners one = cornersOf(soup, crossing[0]), other = cornersOf(soup, crossing[1]);
+  return pierces(one, other) || pierces(other, one);
+}
+
+void tell(const Soup& soup, const Crossing& crossing, Mended& mended) {
+  if (mended.crossings++ == 0) mended.crossing = soup.vertices[soup.triangles[crossing[0]][0]];
+}
+
+// Shells that hang together by crossings or as cavities, and their number of solids.
+struct Heap {
+  std::vector<std::uint32_t> shells;
+  std::size_t solids = 0;
+};
+
+std::vector<Heap> findHeaps(const std::vector<std::uint32_t>& hosts, const Crossed& crossed,
+                            const std::vector<bool>& isWanted) {
+  base::Groups groups(hosts.size());
+  for (const auto& [a, b] : crossed)
+    if (isWanted[a] && isWanted[b]) groups.join(a, b);
+  for (std::uint32_t s = 0; s < hosts.size(); ++s)
+    if (hosts[s] != kNoElement) groups.join(s, hosts[s]);
+  std::vector<Heap> heaps(hosts.size());
+  for (std::uint32_t s = 0; s < hosts.size(); ++s) {
+    if (!isWanted[s]) continue;
+    heaps[groups.of(s)].shells.push_back(s);
+    heaps[groups.of(s)].solids += hosts[s] == kNoElement ? 1 : 0;
   }
+  std::erase_if(heaps, [](const Heap& heap) { return heap.solids < 2; });
+  return heaps;
+}
+
+// The triangles of a heap, solids turned outwards, with the shell of each.
+struct HeapSoup {
+  Soup soup;
+  std::vector<std::uint32_t> shells;  // from 0 within the heap
+  std::vector<Crossing> crossings;
+};
+
+HeapSoup soupOf(const Heap& heap, const Soup& soup, const Shells& shells,
+                const std::vector<std::uint32_t>& hosts, const std::vector<Crossing>& crossings) {
+  HeapSoup own;
+  std::vector<std::uint32_t> ids(soup.triangles.size(), kNoElement),
+      vertices(soup.vertices.size(), kNoElement);
+  for (std::uint32_t s = 0; s < heap.shells.size(); ++s) {
+    const Shell& shell = shells.list[heap.shells[s]];
+    const bool isInwards = hosts[heap.shells[s]] == kNoElement && shell.volume < 0;
+    for (const std::uint32_t t : shell.triangles) {
+      ids[t] = std::uint32_t(own.soup.triangles.size());
+      auto corners = soup.triangles[t];
+      for (std::uint32_t& v : corners) {
+        if (vertices[v] == kNoElement) {
+          vertices[v] = std::uint32_t(own.soup.vertices.size());
+          own.soup.vertices.push_back(soup.vertices[v]);
+        }
+        v = vertices[v];
+      }
+      if (isInwards) std::swap(corners[1], corners[2]);
+      own.soup.triangles.push_back(corners);
+      own.soup.sources.push_back(soup.sources[t]);
+      own.shells.push_back(s);
+    }
+  }
+  for (const auto& [a, b] : crossings)
+    if (ids[a] != kNoElement && ids[b] != kNoElement)
+      own.crossings.push_back({std::min(ids[a], ids[b]), std::max(ids[a], ids[b])});
+  return own;
+}
+
+void append(const Soup& added, Soup& soup) {
+  const auto first = std::uint32_t(soup.vertices.size());
+  soup.vertices.insert(soup.vertices.end(), added.vertices.begin(), added.vertices.end());
+  for (const auto& [a, b, c] : added.triangles) soup.triangles.push_back({first + a, first + b, first + c});
+  soup.sources.insert(soup.sources.end(), added.sources.begin(), added.sources.end());
+}
+
+// How fine a grid is that corners move to, where the union as it is passes through itself once it is rounded:
+// what lay on each other but for a rounding then does, or is farther apart than roundings are [share of its
+// size].
+constexpr std::array kGrids = {0.0, 0x1p-42, 0x1p-36, 0x1p-30};
+
+void moveToGrid(std::vector<Eigen::Vector3d>& places, double share) {
+  if (share == 0) return;
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& place : places) bounds.extend(place);
+  const double largest = std::max(bounds.max().cwiseAbs().maxCoeff(), bounds.min().cwiseAbs().maxCoeff());
+  const double step = std::exp2(std::ceil(std::log2(largest))) * share;
+  for (Eigen::Vector3d& place : places) place = (place / step).array().round() * step;
+}
+
+// What passes through each other once a union is rounded.
+std::size_t countPierced(const HeapSoup& heap, const United& united) {
+  Soup whole = heap.soup;
+  std::vector<bool> isGone;
+  for (const std::uint32_t shell : heap.shells) isGone.push_back(!united.isKept[shell]);
+  dropTriangles(whole, isGone);
+  append(united.soup, whole);
+  const std::vector<Crossing> crossings = findCrossings(whole);
+  return std::size_t(std::count_if(crossings.begin(), crossings.end(),
+                                   [&whole](const Crossing& crossing) { return pierce(whole, crossing); }));
+}
+
+// The first that does not pass through itself, or else the best.
+United unionOf(const HeapSoup& heap, std::size_t& pierced) {
+  United best;
+  for (const double grid : kGrids) {
+    Soup moved = heap.soup;
+    moveToGrid(moved.vertices, grid);
+    United united = uniteShells(moved, heap.shells, grid == 0 ? heap.crossings : findCrossings(moved));
+    const std::size_t own = united.refusal.empty() ? countPierced(heap, united) : 0;
+    const bool isBetter = united.refusal.empty() && (!best.refusal.empty() || own < pierced);
+    if (grid == 0 || isBetter) {
+      best = std::move(united);
+      pierced = own;
+    }
+    if (best.refusal.empty() && pierced == 0) break;
+  }
+  return best;
 }
 
 // The shells that cross none are left as they are, and so are those that cross themselves.
@@ -392,45 +393,49 @@ void uniteParts(Soup& soup, const std::vector<Crossing>& crossings, Mended& mend
   if (crossings.empty()) return;
   Shells shells = findShells(soup);
   Crossed crossed;
-  for (const auto& [a, b] : crossings)
-    if (shells.of[a] == shells.of[b]) {
-      shells.list[shells.of[a]].isCrossed = true;
-    } else {
-      crossed.insert({std::min(shells.of[a], shells.of[b]), std::max(shells.of[a], shells.of[b])});
-    }
+  for (const Crossing& crossing : crossings) {
+    const std::uint32_t a = shells.of[crossing[0]], b = shells.of[crossing[1]];
+    if (a != b)
+      crossed.insert({std::min(a, b), std::max(a, b)});
+    else if (!shells.list[a].isCrossed)
+      shells.list[a].isCrossed = pierce(soup, crossing);
+  }
   std::vector<bool> isWanted(shells.list.size(), false);
   for (const auto& [a, b] : crossed)
     for (const std::uint32_t shell : {a, b}) isWanted[shell] = !shells.list[shell].isCrossed;
   for (std::uint32_t s = 0; s < shells.list.size(); ++s)  // cavities of parts that cross others
     isWanted[s] = isWanted[s] || (!crossed.empty() && shells.list[s].volume < 0 && !shells.list[s].isCrossed);
 
-  std::vector<Part> parts = partsOf(soup, shells.list, crossed, isWanted);
-  const std::size_t before = parts.size();
-  unite(parts, crossed, false);
-  unite(parts, crossed, true);
-  std::set<std::array<std::uint32_t, 2>> apart;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t j = i + 1; j < parts.size(); ++j)
-      if (meet(parts[i], parts[j], crossed) &&
-          (!canCut(parts[i], parts[j], crossed) ||
-           overlapOf(parts[i].mesh, parts[j].mesh) > kNoOverlap * cubedSize(soup)))
-        for (const std::uint32_t own : parts[i].shells)
-          for (const std::uint32_t other : parts[j].shells)
-            apart.insert({std::min(own, other), std::max(own, other)});
-  for (const auto& [a, b] : crossings) {
-    const std::uint32_t s = shells.of[a], t = shells.of[b];
-    const bool isLeft = !isWanted[s] || !isWanted[t] || apart.contains({std::min(s, t), std::max(s, t)});
-    if (isLeft && mended.crossings++ == 0) mended.crossing = soup.vertices[soup.triangles[a][0]];
+  const std::vector<std::uint32_t> hosts = findHosts(soup, shells.list, crossed, isWanted);
+  Soup fresh;
+  std::vector<bool> isGone(soup.triangles.size(), false), isSettled(shells.list.size(), false);
+  for (const Heap& heap : findHeaps(hosts, crossed, isWanted)) {
+    const HeapSoup own = soupOf(heap, soup, shells, hosts, crossings);
+    std::size_t pierced = 0;
+    const United united = unionOf(own, pierced);
+    if (!united.refusal.empty()) {
+      mended.notUnited.push_back({heap.solids, united.refusal});
+      continue;
+    }
+    for (std::uint32_t s = 0; s < heap.shells.size(); ++s) {
+      isSettled[heap.shells[s]] = true;
+      if (united.isKept[s]) continue;
+      mended.united += hosts[heap.shells[s]] == kNoElement ? 1 : 0;
+      for (const std::uint32_t t : shells.list[heap.shells[s]].triangles) isGone[t] = true;
+    }
+    if (pierced > 0 && !united.soup.vertices.empty() && mended.crossings == 0)
+      mended.crossing = united.soup.vertices[united.soup.triangles[0][0]];
+    mended.crossings += pierced;
+    for (const Shell& shell : findShells(united.soup).list) mended.remaining += shell.volume > 0 ? 1 : 0;
+    append(united.soup, fresh);
   }
-  if (parts.size() == before) return;
-  for (const Part& part : parts)
-    if (part.shells.size() > 1) ++mended.remaining;
-  mended.united = before - parts.size() + mended.remaining;
-  Soup united;
-  for (const Part& part : parts) append(part.mesh, united);
-  for (std::uint32_t s = 0; s < shells.list.size(); ++s)
-    if (!isWanted[s]) append(meshOf(soup, shells.list[s].triangles), united);
-  soup = std::move(united);
+  for (const Crossing& crossing : crossings) {
+    const std::uint32_t a = shells.of[crossing[0]], b = shells.of[crossing[1]];
+    if (!(isSettled[a] && isSettled[b]) && pierce(soup, crossing)) tell(soup, crossing, mended);
+  }
+  if (fresh.triangles.empty()) return;
+  dropTriangles(soup, isGone);
+  append(fresh, soup);
 }
 
 double volumeOf(const Soup& soup) {
@@ -460,10 +465,12 @@ Mended mendSurface(Soup& soup, const RepairOptions& options) {
   fillHoles(soup, options, mended);
   if (!openEdges(soup).empty()) return mended;
   const std::vector<Crossing> crossings = findCrossings(soup);
-  if (options.unite)
+  if (options.unite) {
     uniteParts(soup, crossings, mended);
-  else
-    tellCrossings(soup, crossings, mended);
+  } else {
+    for (const Crossing& crossing : crossings)
+      if (pierce(soup, crossing)) tell(soup, crossing, mended);
+  }
   if (mended.crossings == 0) {
     turnOutwards(soup);
   } else if (volumeOf(soup) < 0) {  // which shell is within which cannot be told

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "cook/soup.h"
@@ -14,10 +15,16 @@ struct Hole {
   double area = 0;  ///< of the triangles that fill it, or would; of its flat outline if none do [m^2]
 };
 
+struct NotUnited {
+  std::size_t parts = 0;
+  std::string why;
+};
+
 struct Mended {
   std::vector<Hole> filled, tooLarge;
   std::size_t united = 0;                ///< parts that became fewer
   std::size_t remaining = 0;             ///< what those became
+  std::vector<NotUnited> notUnited;      ///< overlapping parts that stay as they are
   std::size_t crossings = 0;             ///< pairs of triangles that pass through each other and stay so
   Eigen::Vector3d crossing = {0, 0, 0};  ///< a corner of the first of them
 };

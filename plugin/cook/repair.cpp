@@ -219,6 +219,8 @@ RepairedMesh repair(const SurfaceMesh& mesh, const RepairOptions& options) {
     tellHoles(mended, hasLook, repaired);
     if (mended.united > 0)
       done.push_back(words("united ", mended.united, " parts that overlap or touch to ", mended.remaining));
+    for (const auto& [parts, why] : mended.notUnited)
+      repaired.left.push_back(words("did not unite ", counted(parts, "part"), " that overlap: ", why));
     if (mended.crossings > 0)
       repaired.left.push_back(words("passes through itself: ", counted(mended.crossings, "pair"),
                                     " of triangles, the first near (", mended.crossing.x(), ", ",

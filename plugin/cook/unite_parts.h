@@ -1,0 +1,29 @@
+// The fourth door to CGAL: the surface of all that lies within any of some closed surfaces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cook/soup.h"
+
+namespace rubble::cooking {
+
+/// Two triangles of a soup that touch or cross, other than neighbours at what they share; the smaller first.
+using Crossing = std::array<std::uint32_t, 2>;
+
+struct United {
+  std::vector<bool>
+      isKept;  ///< a shell that none overlaps and that shares no piece of face: it stays as it is
+  Soup soup;   ///< the union of all others, without branches; its sources are those of the soup given
+  std::string refusal;  ///< why there is none; empty if there is
+};
+
+/// Unites shells, closed surfaces of a soup: outwards those of solids, inwards those of cavities. shells[t]
+/// is the shell of triangle t, all from 0; crossings are all there are. All is exact until corners are
+/// rounded to doubles in the end, so parts may touch, share faces or lie on each other in any way.
+United uniteShells(const Soup& soup, const std::vector<std::uint32_t>& shells,
+                   const std::vector<Crossing>& crossings);
+
+}  // namespace rubble::cooking
