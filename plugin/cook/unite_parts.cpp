@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/groups.h"
+#include "cook/shells.h"
 #include "cook/surface_sides.h"
 
 namespace rubble::cooking {
@@ -37,6 +38,9 @@ constexpr std::size_t kMostLooks = 4'000'000'000;  // at a triangle from a facet
 
 // Of the union, by rounding [share].
 constexpr double kVolumeLost = 1e-9;
+
+// Closed pieces that are smaller are left out [share of the union].
+constexpr double kDust = 1e-12;
 
 struct Refused {
   std::string why;
@@ -401,14 +405,6 @@ bool isKeptAsGiven(const Facet& facet) {
          std::max(facet.front, facet.back) == 1;
 }
 
-double volumeAbout(const Soup& soup, const Eigen::Vector3d& origin) {
-  double volume = 0;
-  for (const auto& [a, b, c] : soup.triangles)
-    volume +=
-        (soup.vertices[a] - origin).dot((soup.vertices[b] - origin).cross(soup.vertices[c] - origin)) / 6;
-  return volume;
-}
-
 // Corners that rounding brought to the same place become one. Triangles that have not three corners left go,
 // and so does each two that lie on each other, back to back.
 void joinRounded(Soup& soup) {
@@ -439,6 +435,15 @@ void joinRounded(Soup& soup) {
   dropTriangles(soup, isSpare);
 }
 
+// Shells that lie between what was meant to lie on each other.
+void dropDust(Soup& soup, double least) {
+  const Shells shells = findShells(soup);
+  std::vector<bool> isDust(soup.triangles.size());
+  for (std::size_t t = 0; t < isDust.size(); ++t)
+    isDust[t] = std::abs(shells.list[shells.of[t]].volume) < least;
+  dropTriangles(soup, isDust);
+}
+
 Soup surfaceOf(const Arrangement& arrangement, const std::vector<std::uint32_t>& shells,
                const std::vector<bool>& isKept) {
   Soup soup{arrangement.rounded, {}, {}};
@@ -459,13 +464,13 @@ Soup surfaceOf(const Arrangement& arrangement, const std::vector<std::uint32_t>&
 }
 
 United unite(const Soup& soup, const std::vector<std::uint32_t>& shells,
-             const std::vector<Crossing>& crossings) {
+             const std::vector<Crossing>& crossings, bool keepsLone) {
   if (soup.triangles.size() > kMostTriangles || crossings.size() > kMostCrossings)
     throw Refused{"they are too large"};
   Arrangement arrangement(soup, crossings);
   countRounds(arrangement);
   United united;
-  united.isKept.assign(*std::max_element(shells.begin(), shells.end()) + 1, true);
+  united.isKept.assign(*std::max_element(shells.begin(), shells.end()) + 1, keepsLone);
   for (const Facet& facet : arrangement.facets) {
     if (facet.front < 0 || facet.back < 0) throw Refused{"they are inside out in places"};
     if (isKeptAsGiven(facet)) continue;
@@ -474,20 +479,22 @@ United unite(const Soup& soup, const std::vector<std::uint32_t>& shells,
   united.soup = surfaceOf(arrangement, shells, united.isKept);
   if (united.soup.triangles.empty()) return united;
   const Eigen::Vector3d origin = soup.vertices[soup.triangles[0][0]];
-  const double volume = volumeAbout(united.soup, origin);
+  for (std::uint32_t t = 0; t < united.soup.triangles.size(); ++t)
+    united.volume += volumeAbout(united.soup, t, origin);
   joinRounded(united.soup);
-  if (!makeSided(united.soup) || !openEdges(united.soup).empty() ||
-      !(std::abs(volumeAbout(united.soup, origin) - volume) <= kVolumeLost * volume))
-    throw Refused{"their union has details too fine for numbers of 64 bits"};
+  const bool isSurface = makeSided(united.soup) && openEdges(united.soup).empty();
+  if (isSurface) dropDust(united.soup, kDust * united.volume);
+  if (!isSurface || !(std::abs(volumeOf(united.soup) - united.volume) <= kVolumeLost * united.volume))
+    united.refusal = "their union has details too fine for numbers of 64 bits";
   return united;
 }
 
 }  // namespace
 
 United uniteShells(const Soup& soup, const std::vector<std::uint32_t>& shells,
-                   const std::vector<Crossing>& crossings) {
+                   const std::vector<Crossing>& crossings, bool keepsLone) {
   try {
-    return unite(soup, shells, crossings);
+    return unite(soup, shells, crossings, keepsLone);
   } catch (const Refused& refused) {
     United none;
     none.refusal = refused.why;
