@@ -20,6 +20,9 @@ constexpr std::array kGrids = {0.0, 0x1p-44, 0x1p-42, 0x1p-40, 0x1p-38, 0x1p-36,
 // Of the union as it is, by grids and roundings [share].
 constexpr double kVolumeMoved = 1e-9;
 
+// Triangles and crossings of all attempts together: more than one of the largest heaps is not tried again.
+constexpr std::size_t kMostWork = 1'000'000;
+
 // What passes through each other once a union is rounded.
 std::size_t countPierced(const HeapSoup& heap, const United& united) {
   Soup whole = heap.soup;
@@ -54,14 +57,16 @@ HeapUnion makeUnion(const HeapSoup& heap, const HeapFrame& frame, double grid, b
                     std::optional<double>& volume) {
   Soup moved{frame.places, heap.soup.triangles, heap.soup.sources};
   moveToGrid(moved.vertices, grid);
-  HeapUnion made{uniteShells(moved, heap.shells, findCrossings(moved), keepsLone)};
+  const std::vector<Crossing> crossings = findCrossings(moved);
+  HeapUnion made{uniteShells(moved, heap.shells, crossings, keepsLone)};
+  made.work = moved.triangles.size() + crossings.size();
   United& united = made.united;
   if (united.volume > 0 && !volume)
     volume = keptVolume(heap, united.isKept) + united.volume / frame.normals.determinant();
   if (!united.refusal.empty() || united.soup.triangles.empty()) return made;
   united.soup.vertices = placesBack(frame, heap.soup, std::move(united.soup.vertices));
   const double own = keptVolume(heap, united.isKept) + volumeOf(united.soup);
-  if (std::abs(own - *volume) <= kVolumeMoved * *volume)
+  if (volume && std::abs(own - *volume) <= kVolumeMoved * *volume)
     made.pierced = countPierced(heap, united);
   else
     united.refusal = "rounding changes their volume";
@@ -74,13 +79,16 @@ HeapUnion unionOf(const HeapSoup& heap) {
   const HeapFrame frame = frameOf(heap.soup);
   HeapUnion best;
   std::optional<double> volume;
+  std::size_t work = 0;
   for (const double grid : kGrids)
     for (const bool keepsLone : {true, false}) {  // what merely touches may pass through by a rounding
       HeapUnion own = makeUnion(heap, frame, grid, keepsLone, volume);
+      const std::size_t ownWork = own.work;
       const std::vector<bool> isKept = own.united.isKept;
       const bool keepsAny = std::find(isKept.begin(), isKept.end(), true) != isKept.end();
       if ((grid == 0 && keepsLone) || isBetter(own, best)) best = std::move(own);
-      if (isDone(best)) return best;
+      work += ownWork;
+      if (isDone(best) || work + ownWork > kMostWork) return best;
       if (!keepsAny) break;
     }
   return best;

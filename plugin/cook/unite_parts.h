@@ -1,4 +1,4 @@
-// The fourth door to CGAL: the surface of all that lies within any of some closed surfaces.
+// The surface of all that lies within any of some closed surfaces.
 #pragma once
 
 #include <array>

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-#include <set>
-
 #include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
@@ -244,54 +241,6 @@ TEST(Repair, UnitesPartsThatShareAFace) {
 TEST(Repair, KeepsACavityThatAPartReachesInto) {
   expectMended(joined(hollowCube(), boxMesh({0.75, 0.1, 0.1}, {0.375, 0, 0})),
                {"united 2 parts that overlap or touch to 1"}, 0.875 + 0.5 * 0.01);
-}
-
-// Boxes of one or two cells a side in a grid of 4 x 4 x 4: they overlap, share faces, pieces of faces, edges
-// and corners, or all of each other. The solid is the cells that any of them fills.
-TEST(Repair, UnitesHeapsOfBoxesOnAGrid) {
-  std::mt19937 random(7);
-  const auto upTo = [&random](std::uint32_t most) { return std::uint32_t(random() % (most + 1)); };
-#ifdef RUBBLE_SANITIZED
-  constexpr int kHeaps = 20;
-#else
-  constexpr int kHeaps = 300;
-#endif
-  for (int heap = 0; heap < kHeaps; ++heap) {
-    SurfaceMesh mesh;
-    std::set<std::array<std::uint32_t, 3>> cells;
-    for (int box = 0; box < 2 + heap % 7; ++box) {
-      std::array<std::uint32_t, 3> low{}, size{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        size[axis] = 1 + upTo(1);
-        low[axis] = upTo(4 - size[axis]);
-      }
-      for (std::uint32_t c = 0; c < size[0] * size[1] * size[2]; ++c)
-        cells.insert({low[0] + c % size[0], low[1] + c / size[0] % size[1], low[2] + c / size[0] / size[1]});
-      const Eigen::Vector3d edges(size[0], size[1], size[2]);
-      mesh = joined(mesh, boxMesh(edges, Eigen::Vector3d(low[0], low[1], low[2]) + edges / 2));
-    }
-    const RepairedMesh repaired = repair(mesh);
-    EXPECT_EQ(repaired.left, Lines()) << heap;
-    EXPECT_EQ(repaired.fault, "") << heap;
-    EXPECT_NEAR(volumeOf(repaired.mesh), double(cells.size()), 1e-9) << heap;
-  }
-}
-
-// 2 + 2 - 1 + 2 + 1 cells. Turned, what lay in a plane or on an edge now does so but for roundings.
-TEST(Repair, UnitesPartsThatNearlyShareFaces) {
-  SurfaceMesh mesh;
-  const std::array<std::array<Eigen::Vector3d, 2>, 4> boxes = {{
-      {Eigen::Vector3d(2, 1, 1), Eigen::Vector3d(0, 0, 0)},
-      {Eigen::Vector3d(1, 2, 1), Eigen::Vector3d(1, 0, 0)},
-      {Eigen::Vector3d(1, 1, 2), Eigen::Vector3d(0, 0, 1)},
-      {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 1, 1)},
-  }};
-  for (const auto& [size, low] : boxes) mesh = joined(mesh, boxMesh(size, low + size / 2));
-  expectMended(mesh, {"united 4 parts that overlap or touch to 1"}, 6);
-  const RepairedMesh repaired = repair(tilted(mesh));
-  EXPECT_EQ(repaired.left, Lines());
-  EXPECT_EQ(repaired.fault, "");
-  EXPECT_NEAR(volumeOf(repaired.mesh), 6, 1e-9);
 }
 
 // A part that only touches stays to the last bit, with its numbers, where others are united.
