@@ -174,11 +174,11 @@ void tellHoles(const Mended& mended, bool hasLook, RepairedMesh& repaired) {
     return words(verb, counted(holes.size(), "hole"), " of ", counted(all.edges, "edge"), ", ", all.area,
                  " m^2");
   };
-  if (!mended.filled.empty())
-    repaired.done.push_back(tell("filled ", mended.filled) +
+  if (!mended.holes.filled.empty())
+    repaired.done.push_back(tell("filled ", mended.holes.filled) +
                             (hasLook ? ", without normals and texture coordinates" : ""));
-  if (!mended.tooLarge.empty())
-    repaired.left.push_back(tell("left open ", mended.tooLarge) + "; too large to be closed by guess");
+  if (!mended.holes.tooLarge.empty())
+    repaired.left.push_back(tell("left open ", mended.holes.tooLarge) + "; too large to be closed by guess");
 }
 
 // What the check of `cook` says of it; empty where it has nothing to say.
@@ -219,6 +219,8 @@ RepairedMesh repair(const SurfaceMesh& mesh, const RepairOptions& options) {
     tellHoles(mended, hasLook, repaired);
     if (mended.united > 0)
       done.push_back(words("united ", mended.united, " parts that overlap or touch to ", mended.remaining));
+    for (const auto& [parts, why] : mended.notUnited)
+      repaired.left.push_back(words("did not unite ", counted(parts, "part"), " that overlap: ", why));
     if (mended.crossings > 0)
       repaired.left.push_back(words("passes through itself: ", counted(mended.crossings, "pair"),
                                     " of triangles, the first near (", mended.crossing.x(), ", ",

@@ -173,17 +173,62 @@ void partVertices(Soup& soup, const Pairing& behind) {
   }
 }
 
+// Two triangles that go together at an edge from a to b.
+struct Joint {
+  std::array<std::uint32_t, 2> triangles;
+  std::uint32_t a, b;
+};
+
+// Those at edges that have four triangles although vertices were parted: where surfaces touch along a single
+// edge, its ends are still one fan each.
+std::vector<Joint> findCrowded(const Soup& soup, const Pairing& behind) {
+  std::vector<Joint> joints;
+  forEachEdge(sortedEdges(soup), [&](std::span<const SoupEdge> sides) {
+    if (sides.size() <= 2) return;
+    for (const SoupEdge& side : sides) {
+      const auto other = std::uint32_t(behind[numberOf(side)] / 3);
+      if (side.triangle < other) joints.push_back({{side.triangle, other}, side.low, side.high});
+    }
+  });
+  return joints;
+}
+
+// Cuts each two triangles in the middle of their edge, which so becomes one of their own; those that share a
+// triangle with another wait for their turn.
+void cutCrowded(Soup& soup, const std::vector<Joint>& joints) {
+  std::vector<bool> isCut(soup.triangles.size(), false);
+  for (const auto& [triangles, a, b] : joints) {
+    if (isCut[triangles[0]] || isCut[triangles[1]]) continue;
+    const auto middle = std::uint32_t(soup.vertices.size());
+    soup.vertices.push_back((soup.vertices[a] + soup.vertices[b]) / 2);
+    for (const std::uint32_t t : triangles) {
+      isCut[t] = true;
+      auto half = soup.triangles[t];
+      std::replace(half.begin(), half.end(), a, middle);
+      std::replace(soup.triangles[t].begin(), soup.triangles[t].end(), b, middle);
+      soup.triangles.push_back(half);
+      soup.sources.push_back(Source(soup.sources[t]));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Sided> makeSided(Soup& soup) {
-  const std::optional<Pairs> pairs = pairSides(soup);
-  if (!pairs) return std::nullopt;
-  const auto turns = findTurns(soup, pairs->behind);
-  if (!turns) return std::nullopt;
-  partVertices(soup, pairs->behind);  // before sides change their numbers
-  for (std::size_t t = 0; t < turns->size(); ++t)
-    if ((*turns)[t]) std::swap(soup.triangles[t][1], soup.triangles[t][2]);
-  return Sided{pairs->parted};
+  std::optional<Sided> sided;
+  for (;;) {
+    const std::optional<Pairs> pairs = pairSides(soup);
+    if (!pairs) return std::nullopt;
+    const auto turns = findTurns(soup, pairs->behind);
+    if (!turns) return std::nullopt;
+    if (!sided) sided = Sided{pairs->parted};
+    partVertices(soup, pairs->behind);
+    const std::vector<Joint> crowded = findCrowded(soup, pairs->behind);
+    for (std::size_t t = 0; t < turns->size(); ++t)  // sides change their numbers
+      if ((*turns)[t]) std::swap(soup.triangles[t][1], soup.triangles[t][2]);
+    if (crowded.empty()) return sided;
+    cutCrowded(soup, crowded);
+  }
 }
 
 }  // namespace rubble::cooking
