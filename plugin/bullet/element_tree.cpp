@@ -1,6 +1,7 @@
 #include "bullet/element_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bullet/convert.h"
 
@@ -21,10 +22,12 @@ struct Collect : btDbvt::ICollide {
 }  // namespace
 
 void ElementTree::follow(const edem::Solver& solver, std::uint32_t body) {
-  const auto alive = solver.view(body).alive;
+  const edem::BodyView view = solver.view(body);
+  const auto alive = view.alive;
   const edem::CellFaces* cells = solver.cells(body);
   const double radius = solver.radius(body);
   m_leaves.resize(alive.size(), nullptr);
+  m_slept.resize(alive.size(), 0);
   for (std::uint32_t i = 0; i < alive.size(); ++i) {
     btDbvtNode*& leaf = m_leaves[i];
     if (!alive[i]) {
@@ -32,6 +35,8 @@ void ElementTree::follow(const edem::Solver& solver, std::uint32_t body) {
       leaf = nullptr;
       continue;
     }
+    // What sleeps has moved in the tick in which it fell asleep for the last time.
+    if (std::exchange(m_slept[i], view.sleeping[i]) && view.sleeping[i] && leaf) continue;
     const double reach = cells ? cells->reach[i] : radius;
     const btVector3 at = toBullet(solver.position(body, i));
     btDbvtVolume box = btDbvtVolume::FromCR(at, btScalar(reach));

@@ -28,6 +28,7 @@ class ElementTree {
  private:
   btDbvt m_tree;
   std::vector<btDbvtNode*> m_leaves;  // by element; null once it is crushed
+  std::vector<std::uint8_t> m_slept;  // those that slept when they were last looked at
 };
 
 RUBBLE_ABI_END

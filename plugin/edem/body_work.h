@@ -35,9 +35,11 @@ struct BodyWork {
   std::vector<std::uint32_t> awakeSprings;  ///< unbroken springs and anchors of those
 
   // Of the frames and fragments.
-  std::vector<Vec3<double>> rest;       ///< origin_f + turn_f X_I, relative to origin; by turnRest [m]
-  std::vector<FragmentMotion> motions;  ///< of the fragments; by beginMotions
-  std::vector<std::uint32_t> motionOf;  ///< each element's place in `motions`
+  std::vector<Vec3<double>> rest;           ///< origin_f + turn_f X_I, relative to origin; by turnRest [m]
+  std::vector<FragmentMotion> motions;      ///< of the fragments; by beginMotions
+  std::vector<std::uint32_t> awakeMotions;  ///< those of what is stepped; the others stand as they were
+  std::uint32_t numberedBroken = 0, numberedCrushed = 0;  ///< counts when `motionOf` was written
+  std::vector<std::uint32_t> motionOf;                    ///< each element's place in `motions`
 
   // Of a substep.
   std::vector<Vec3<double>> position;                   ///< rest + u, relative to origin [m]

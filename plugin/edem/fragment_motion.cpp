@@ -13,7 +13,7 @@ constexpr double kRestingSpeed = 0.1;
 
 // Numbers the fragments from 0 in the order of their lowest elements.
 template <class Real>
-std::uint32_t number(Body<Real>& body) {
+void number(Body<Real>& body) {
   std::uint32_t count = 0;
   body.work.motionOf.assign(body.elementCount(), 0);
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
@@ -21,60 +21,91 @@ std::uint32_t number(Body<Real>& body) {
     body.work.motionOf[i] =
         body.state.fragment[i] == i ? count++ : body.work.motionOf[body.state.fragment[i]];
   }
-  return count;
+  body.work.motions.assign(std::max(count, 1u), {});
+  body.work.numberedBroken = body.state.labelledBroken;
+  body.work.numberedCrushed = body.state.crushedCount;
+}
+
+// What each awake fragment was pressed with in the last substep [N]; nothing if there are others now.
+template <class Real>
+std::vector<double> pressedBefore(const BodyWork<Real>& work) {
+  std::vector<double> pressed(work.motions.size(), 0);
+  for (const std::uint32_t f : work.awakeMotions) pressed[f] = work.motions[f].pressed;
+  return pressed;
 }
 
 }  // namespace
 
 template <class Real>
 void beginMotions(Body<Real>& body) {
-  const std::vector<FragmentMotion> before = std::exchange(body.work.motions, {});
-  body.work.motions.resize(std::max(number(body), 1u));
-  std::vector<FragmentMotion>& motions = body.work.motions;
+  BodyWork<Real>& work = body.work;
+  std::vector<FragmentMotion>& motions = work.motions;
+  const std::vector<double> pressed = pressedBefore(work);
+  // What sleeps stands as it was, unless all are numbered anew.
+  const bool all = motions.empty() || work.numberedBroken != body.state.labelledBroken ||
+                   work.numberedCrushed != body.state.crushedCount;
+  if (all) number(body);
+  work.awakeMotions.clear();
+  for (const std::uint32_t i : work.awake)
+    if (body.state.fragment[i] == i) work.awakeMotions.push_back(work.motionOf[i]);
+  for (const std::uint32_t f : work.awakeMotions) {
+    motions[f] = {};
+    if (pressed.size() == motions.size()) motions[f].pressed = pressed[f];
+  }
   const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < body.elementCount(); ++i)
-      if (body.state.alive[i]) visit(i, motions[body.work.motionOf[i]], body.worldPosition(i));
+    const auto one = [&](std::size_t i) {
+      if (body.state.alive[i]) visit(i, motions[work.motionOf[i]], body.worldPosition(i));
+    };
+    if (all)
+      for (std::size_t i = 0; i < body.elementCount(); ++i) one(i);
+    else
+      for (const std::uint32_t i : work.awake) one(i);
+  };
+  const auto eachMotion = [&](auto&& visit) {
+    if (all)
+      for (std::uint32_t f = 0; f < motions.size(); ++f) visit(f);
+    else
+      for (const std::uint32_t f : work.awakeMotions) visit(f);
   };
   std::vector<double> mass(motions.size());
   each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
-    mass[body.work.motionOf[i]] += body.constants->mass[i];
+    mass[work.motionOf[i]] += body.constants->mass[i];
     m.centre += body.constants->mass[i] * x;
     m.velocity += body.constants->mass[i] * body.state.velocity[i].template cast<double>();
     m.fixed = m.fixed || body.state.anchored[i];
   });
-  for (std::size_t f = 0; f < motions.size(); ++f) {
-    if (!(mass[f] > 0)) continue;
+  eachMotion([&](std::uint32_t f) {
+    if (!(mass[f] > 0)) return;
     motions[f].centre /= mass[f];
     motions[f].velocity /= mass[f];
     motions[f].inverseMass = motions[f].fixed ? 0 : 1 / mass[f];
-  }
+  });
   std::vector<Eigen::Matrix3d> inertia(motions.size(), Eigen::Matrix3d::Zero());
   each([&](std::size_t i, FragmentMotion& m, const Eigen::Vector3d& x) {
     const Eigen::Vector3d arm = x - m.centre;
     m.spin += body.constants->mass[i] * arm.cross(body.state.velocity[i].template cast<double>()) +
               body.constants->inertia[i] * body.state.spin[i].template cast<double>();
-    inertia[body.work.motionOf[i]] +=
-        (body.constants->mass[i] * arm.squaredNorm() + body.constants->inertia[i]) *
-            Eigen::Matrix3d::Identity() -
-        body.constants->mass[i] * arm * arm.transpose();
+    inertia[work.motionOf[i]] += (body.constants->mass[i] * arm.squaredNorm() + body.constants->inertia[i]) *
+                                     Eigen::Matrix3d::Identity() -
+                                 body.constants->mass[i] * arm * arm.transpose();
   });
-  for (std::size_t f = 0; f < motions.size(); ++f) {
+  eachMotion([&](std::uint32_t f) {
     FragmentMotion& m = motions[f];
     if (m.fixed || !(mass[f] > 0)) {
       m.velocity.setZero();
       m.spin.setZero();
-      continue;
+      return;
     }
     m.inverseInertia = inertia[f].inverse();
     m.spin = m.inverseInertia * m.spin;
-    if (before.size() == motions.size()) m.pressed = before[f].pressed;
-  }
+  });
 }
 
 template <class Real>
 void moveMotions(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity) {
   assert(kick >= 0 && step >= 0);
-  for (FragmentMotion& m : body.work.motions) {
+  for (const std::uint32_t f : body.work.awakeMotions) {
+    FragmentMotion& m = body.work.motions[f];
     m.pressed = std::exchange(m.pressing, 0);
     if (!m.fixed) {
       m.velocity += kick * (m.inverseMass * m.force + gravity);

@@ -7,8 +7,8 @@
 
 namespace rubble::edem {
 
-/// Takes mass, momenta and inertia of every fragment from its elements; fragments that an anchor holds do not
-/// move. Call once a tick.
+/// Takes mass, momenta and inertia of every fragment that is stepped from its elements; fragments that an
+/// anchor holds do not move. Call once a tick, and when fragments broke or woke.
 template <class Real>
 void beginMotions(Body<Real>& body);
 

@@ -1,6 +1,8 @@
 #include "edem/frames.h"
 
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace rubble::edem {
 namespace {
@@ -30,9 +32,8 @@ struct Fit {
 // Visits the elements whose frame moves: those of fragments that sleep would only be rounded.
 template <class Real, class Visit>
 void visitMoving(const Body<Real>& body, Visit&& visit) {
-  for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.state.alive[i] && body.state.frameOf[i] > 0 && !body.state.sleeping[i])
-      visit(i, body.state.frameOf[i]);
+  for (const std::uint32_t i : body.work.awake)
+    if (body.state.alive[i] && body.state.frameOf[i] > 0) visit(i, body.state.frameOf[i]);
 }
 
 template <class Real>
@@ -48,25 +49,38 @@ void putInFrame0(Body<Real>& body, std::size_t i, const Frame& was) {
   body.state.frameOf[i] = 0;
 }
 
+template <class Real>
+std::vector<Eigen::Matrix3d> turnsOf(const Body<Real>& body) {
+  std::vector<Eigen::Matrix3d> turns;
+  for (const Frame& frame : body.state.frames) turns.push_back(frame.turn.toRotationMatrix());
+  return turns;
+}
+
+template <class Real>
+void turnElement(Body<Real>& body, std::size_t i, std::span<const Eigen::Matrix3d> turns) {
+  const std::uint32_t f = body.state.frameOf[i];
+  body.work.rest[i] =
+      body.state.frames[f].origin - body.state.origin + turns[f] * body.constants->restCentred[i];
+}
+
+template <class Real>
+void turnSpring(Body<Real>& body, std::size_t s, std::span<const Eigen::Matrix3d> turns) {
+  Spring<Real>& spring = body.state.springs[s];
+  const Eigen::Matrix3d& turn = turns[body.state.frameOf[spring.first]];
+  spring.rest = (turn * body.constants->springRest[s]).template cast<Real>();
+  spring.offset = (turn * body.constants->springOffset[s]).template cast<Real>();
+}
+
 }  // namespace
 
 template <class Real>
 void turnRest(Body<Real>& body, std::size_t first) {
-  std::vector<Eigen::Matrix3d> turns;
-  for (const Frame& frame : body.state.frames) turns.push_back(frame.turn.toRotationMatrix());
-  for (std::size_t i = 0; i < body.elementCount(); ++i) {
-    const std::uint32_t f = body.state.frameOf[i];
-    if (f < first) continue;
-    body.work.rest[i] =
-        body.state.frames[f].origin - body.state.origin + turns[f] * body.constants->restCentred[i];
-  }
-  for (std::size_t s = 0; s < body.state.springs.size(); ++s) {
-    Spring<Real>& spring = body.state.springs[s];
-    const std::uint32_t f = body.state.frameOf[spring.first];
-    if (!body.state.intact[s] || f < first) continue;
-    spring.rest = (turns[f] * body.constants->springRest[s]).template cast<Real>();
-    spring.offset = (turns[f] * body.constants->springOffset[s]).template cast<Real>();
-  }
+  const std::vector<Eigen::Matrix3d> turns = turnsOf(body);
+  for (std::size_t i = 0; i < body.elementCount(); ++i)
+    if (body.state.frameOf[i] >= first) turnElement(body, i, turns);
+  for (std::size_t s = 0; s < body.state.springs.size(); ++s)
+    if (body.state.intact[s] && body.state.frameOf[body.state.springs[s].first] >= first)
+      turnSpring(body, s, turns);
 }
 
 template <class Real>
@@ -112,7 +126,11 @@ void fitFrames(Body<Real>& body) {
     const Eigen::Quaterniond q = body.state.rotation[i].template cast<double>() * fit.step.conjugate();
     body.state.rotation[i] = Quat<Real>(q.normalized().template cast<Real>());
   });
-  turnRest(body, 1);
+  const std::vector<Eigen::Matrix3d> turns = turnsOf(body);
+  visitMoving(body, [&](std::size_t i, std::uint32_t) { turnElement(body, i, turns); });
+  for (const std::uint32_t s : body.work.awakeSprings)
+    if (body.state.intact[s] && body.state.frameOf[body.state.springs[s].first] > 0)
+      turnSpring(body, s, turns);
 }
 
 template void turnRest(Body<float>&, std::size_t);

@@ -136,12 +136,12 @@ void accumulateContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, cons
                         RestingLoads& resting, Books& books) {
   assert(list.memory.size() == list.entries.size() && steps.moved >= 0 && steps.next >= 0);
   const Vec3<double> offset = b.state.origin - a.state.origin;
-  list.elastic = 0;
+  list.elastic = list.elasticAsleep;
   double slipped = 0;
-  for (std::size_t k = 0; k < list.entries.size(); ++k) {
+  for (const std::uint32_t k : list.awake) {
     PairEntry& entry = list.entries[k];
     ContactMemory<Real>& memory = list.memory[k];
-    if (a.state.sleeping[entry.first] || b.state.sleeping[entry.second]) {  // both, or they do not touch
+    if (a.state.sleeping[entry.first] || b.state.sleeping[entry.second]) {  // one: they do not touch
       list.elastic += entry.touching ? double(memory.energy) : 0;
       continue;
     }
@@ -177,7 +177,7 @@ template <class Real>
 void releaseContacts(PairList<Real>& list, Body<Real>& a, Body<Real>& b, double step, double kick,
                      RestingLoads& resting, Books& books) {
   const Vec3<double> offset = b.state.origin - a.state.origin;
-  for (std::size_t k = 0; k < list.entries.size(); ++k) {
+  for (const std::uint32_t k : list.awake) {
     PairEntry& entry = list.entries[k];
     if (!entry.touching || (!a.work.leaving[entry.first] && !b.work.leaving[entry.second])) continue;
     const PairTouch<Real> touch = touchPair(list, k, offset, a, b, Steps{0, step}, resting, list.memory[k]);

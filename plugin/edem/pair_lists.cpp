@@ -95,6 +95,23 @@ void PairLists<Real>::build(std::span<const std::unique_ptr<Body<Real>>> bodies,
       m_lists.push_back(std::move(list));
     }
   }
+  listAwake(bodies);
+}
+
+template <class Real>
+void PairLists<Real>::listAwake(std::span<const std::unique_ptr<Body<Real>>> bodies) {
+  for (PairList<Real>& list : m_lists) {
+    const Body<Real>&a = *bodies[list.first], &b = *bodies[list.second];
+    list.awake.clear();
+    list.elasticAsleep = 0;
+    for (std::uint32_t k = 0; k < list.entries.size(); ++k) {
+      const PairEntry& e = list.entries[k];
+      if (!a.state.sleeping[e.first] || !b.state.sleeping[e.second])
+        list.awake.push_back(k);
+      else if (e.touching)
+        list.elasticAsleep += double(list.memory[k].energy);
+    }
+  }
 }
 
 template <class Real>
@@ -153,15 +170,22 @@ template <class Real>
 void PairLists<Real>::addBroken(std::uint32_t body, const PairEntry& entry) {
   PairList<Real>& list = m_lists[body];
   const auto at = std::lower_bound(list.entries.begin(), list.entries.end(), entry, before);
-  list.memory.insert(list.memory.begin() + (at - list.entries.begin()), ContactMemory<Real>{});
+  const auto place = std::uint32_t(at - list.entries.begin());
+  list.memory.insert(list.memory.begin() + place, ContactMemory<Real>{});
   list.entries.insert(at, entry);
+  const auto behind = std::lower_bound(list.awake.begin(), list.awake.end(), place);
+  std::for_each(behind, list.awake.end(), [](std::uint32_t& k) { ++k; });
+  list.awake.insert(behind, place);
 }
 
 template <class Real>
 void PairLists<Real>::removeBody(std::uint32_t place) {
-  // Places have shifted: the next build takes these lists by the ids of their bodies.
   if (place < m_grids.size()) m_grids.erase(m_grids.begin() + place);
   std::erase_if(m_lists, [place](const PairList<Real>& l) { return l.first == place || l.second == place; });
+  for (PairList<Real>& l : m_lists) {  // what wakes before the next build looks at their bodies
+    if (l.first > place) --l.first;
+    if (l.second > place) --l.second;
+  }
 }
 
 template <class Real>
@@ -172,6 +196,8 @@ double PairLists<Real>::endContactsOf(std::uint32_t id) {
     energy += std::exchange(list.elastic, 0);
     list.entries.clear();
     list.memory.clear();
+    list.awake.clear();
+    list.elasticAsleep = 0;
   }
   return energy;
 }

@@ -28,6 +28,8 @@ struct PairList {
   ContactLaw<Real> law;
   std::vector<PairEntry> entries;
   std::vector<ContactMemory<Real>> memory;  ///< beside `entries`; zero where they do not touch
+  std::vector<std::uint32_t> awake;         ///< those of which not both elements sleep, in rising order
+  double elasticAsleep = 0;                 ///< energy of the contacts of the others [J]
   double elastic = 0;                       ///< energy of the contacts at the last instant [J]
 };
 
@@ -44,6 +46,8 @@ class PairLists {
   /// Lists anew. `skin` is added to the contact distance; the lists hold until an element moved half of it
   /// [m]. Pairs that touched keep their memory; lists of bodies that sleep stay as they are.
   void build(std::span<const std::unique_ptr<Body<Real>>> bodies, double skin);
+  /// Some elements woke since.
+  void listAwake(std::span<const std::unique_ptr<Body<Real>>> bodies);
   /// A spring broke: its pair may touch from now on.
   void addBroken(std::uint32_t body, const PairEntry& entry);
   /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.

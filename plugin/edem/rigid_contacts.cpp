@@ -142,7 +142,7 @@ double RigidContacts<Real>::away(const PairLists<Real>& lists) {
 template <class Real>
 template <class Visit>
 void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const Body<Real>& body,
-                                    const PairLists<Real>& lists, Visit&& visit) const {
+                                    bool sleeping, const PairLists<Real>& lists, Visit&& visit) const {
   const RigidProxy& proxy = m_proxies[p];
   if (std::find(proxy.spared.begin(), proxy.spared.end(), body.id) != proxy.spared.end()) return;
   const ElementGrid& own = lists.grid(place);
@@ -156,7 +156,7 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
   box = grown(box.intersection(own.bounds), 0.25 * lists.skin());
 
   const auto consider = [&](std::uint32_t i) {
-    if (!body.state.alive[i]) return;
+    if (!body.state.alive[i] || bool(body.state.sleeping[i]) != sleeping) return;
     if (body.state.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
     const Eigen::Vector3d x = body.state.origin + body.work.position[i];
     const double near = body.constants->cells ? body.constants->cells->reach[i] + away(lists) : reach;
@@ -164,7 +164,10 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
     if (distance < near) visit(i, x, distance);
   };
   const Vec3<double> low = box.min() - body.state.origin, high = box.max() - body.state.origin;
-  if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
+  const bool few = !sleeping && own.grid.cellsIn(low, high) > double(body.work.awake.size());
+  if (few) {
+    for (const std::uint32_t i : body.work.awake) consider(i);
+  } else if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
     for (std::uint32_t i = 0; i < body.elementCount(); ++i) consider(i);
   } else {
     own.grid.visitBox(low, high, consider);
@@ -176,8 +179,7 @@ void RigidContacts<Real>::listNear(std::uint32_t p, std::uint32_t place, const B
                                    const PairLists<Real>& lists) {
   const RigidProxy& proxy = m_proxies[p];
   const std::size_t begin = m_contacts.size();
-  visitNear(p, place, body, lists, [&](std::uint32_t i, const Eigen::Vector3d& x, double distance) {
-    if (body.state.sleeping[i]) return;
+  visitNear(p, place, body, false, lists, [&](std::uint32_t i, const Eigen::Vector3d& x, double distance) {
     RigidContact candidate;
     candidate.proxy = p;
     candidate.body = place;
@@ -207,8 +209,8 @@ void RigidContacts<Real>::visitDisturbed(Bodies bodies, const PairLists<Real>& l
     };
     for (std::uint32_t p = 0; p < m_proxies.size(); ++p)
       if (!m_states[p].still)
-        visitNear(p, b, body, lists,
-                  [&](std::uint32_t i, const Eigen::Vector3d&, double) { visitSleeping(i); });
+        visitNear(p, b, body, true, lists,
+                  [&](std::uint32_t i, const Eigen::Vector3d&, double) { visit(b, i); });
     for (const Kept& k : m_kept) {
       const auto isThere = [&k](const RigidState& s) { return s.key == k.key; };
       if (k.body == body.id && std::none_of(m_states.begin(), m_states.end(), isThere))

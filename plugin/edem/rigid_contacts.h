@@ -99,10 +99,10 @@ class RigidContacts {
   double pushPower(const Push& push, const Body<Real>& body) const;
   void endContacts(Bodies bodies);
   static double away(const PairLists<Real>& lists);
-  /// visit(element, its centre [m], its distance from the proxy's surface [m]) for those near enough to be
-  /// listed.
+  /// visit(element, its centre [m], its distance from the proxy's surface [m]) for those that sleep, or for
+  /// those that do not, near enough to be listed.
   template <class Visit>
-  void visitNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
+  void visitNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body, bool sleeping,
                  const PairLists<Real>& lists, Visit&& visit) const;
   void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
                 const PairLists<Real>& lists);

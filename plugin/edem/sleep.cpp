@@ -94,6 +94,7 @@ bool wake(World<Real>& w, const std::vector<Place>& places) {
     recount(body);
     if (body.state.sleepingCount < before) beginMotions(body);
   }
+  w.lists.listAwake(w.bodies);
   w.stepLength.beginTick(w.bodies);
   w.listsStale = true;
   return true;
@@ -262,7 +263,7 @@ bool wakeTouched(World<Real>& w) {
     Body<Real>&a = *w.bodies[list.first], &b = *w.bodies[list.second];
     if (a.state.sleepingCount + b.state.sleepingCount == 0 || (a.state.asleep && b.state.asleep)) continue;
     const Vec3<double> offset = b.state.origin - a.state.origin;
-    for (std::size_t k = 0; k < list.entries.size(); ++k) {
+    for (const std::uint32_t k : list.awake) {
       const PairEntry& e = list.entries[k];
       // What sleeps with all of its body bears what lies on it.
       const bool first = a.state.asleep || a.state.sleeping[e.first],
@@ -298,6 +299,7 @@ template <class Real>
 void wakeAll(World<Real>& w) {
   if (!anySleeping(w)) return;
   for (auto& body : w.bodies) forgetSleep(*body);
+  w.lists.listAwake(w.bodies);
   w.stepLength.beginTick(w.bodies);
   w.listsStale = true;
 }

@@ -76,8 +76,8 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   for (const PairList<Real>& l : lists.lists()) {
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
     const ContactLaw<double> law = l.law.template cast<double>();
-    for (const PairEntry& e : l.entries) {
-      if (a.state.sleeping[e.first] && b.state.sleeping[e.second]) continue;
+    for (const std::uint32_t k : l.awake) {
+      const PairEntry& e = l.entries[k];
       m_contact2 = std::max(
           m_contact2, law.stiffness * (1 / a.constants->mass[e.first] + 1 / b.constants->mass[e.second]));
       if (!a.state.asleep) addContact(l.first, e.first, ratesOf(law, a, e.first), e.touching);
@@ -107,10 +107,10 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
       if (body.state.alive[i]) add(b, rates[i], {});
   }
   for (const PairList<Real>& l : lists.lists()) {
-    const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
-    for (const PairEntry& e : l.entries)
-      if (!a.state.sleeping[e.first] || !b.state.sleeping[e.second])
-        add(l.first, m_rates[l.first][e.first], m_rates[l.second][e.second]);
+    for (const std::uint32_t k : l.awake) {
+      const PairEntry& e = l.entries[k];
+      add(l.first, m_rates[l.first][e.first], m_rates[l.second][e.second]);
+    }
   }
   // What moves at a rigid body moves it too: light ones are made softer where they would need a step much
   // shorter than the elements'.

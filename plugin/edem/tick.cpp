@@ -65,9 +65,10 @@ void refreshFragments(World<Real>& w) {
 template <class Real>
 bool contactsBegan(const World<Real>& w) {
   return std::any_of(w.bodies.begin(), w.bodies.end(), [](const auto& body) {
-    const auto& begun = body->work.touchesBegun;
-    return !body->state.asleep &&
-           std::any_of(begun.begin(), begun.end(), [](std::uint16_t n) { return n > 1; });
+    const auto& awake = body->work.awake;
+    return !body->state.asleep && std::any_of(awake.begin(), awake.end(), [&](std::uint32_t i) {
+      return body->work.touchesBegun[i] > 1;
+    });
   });
 }
 

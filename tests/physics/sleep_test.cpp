@@ -157,6 +157,25 @@ TYPED_TEST(Sleep, WhatLiesOnABodyThatSleepsAsAWholeSleepsToo) {
   EXPECT_EQ(this->solver->view(id).sleepingCount, 0u);
 }
 
+// The lists of pairs name bodies by place, and places shift before the next listing.
+TYPED_TEST(Sleep, BodiesMayBeRemovedOneAfterAnotherUnderWhatSleeps) {
+  edem::BodyDef aside = looseCubes(1);
+  aside.transform = Eigen::Translation3d(5, 0, 0) * Eigen::Isometry3d::Identity();
+  const std::uint32_t far = this->solver->addBody(aside, kNoGravity);
+  const std::uint32_t lower = this->solver->addBody(looseCubes(1), kNoGravity);
+  edem::BodyDef above = looseCubes(1);
+  above.transform = Eigen::Translation3d(0, 1.001 * kEdge, 0) * Eigen::Isometry3d::Identity();
+  const std::uint32_t upper = this->solver->addBody(above, kNoGravity);
+  this->tick(60);
+  ASSERT_EQ(this->solver->view(upper).sleepingCount, 1u);
+  const double before = this->solver->position(upper, 0).y();
+  this->solver->removeBody(far);
+  this->solver->removeBody(lower);
+  EXPECT_EQ(this->solver->view(upper).sleepingCount, 0u);
+  this->tick(6);
+  EXPECT_LT(this->solver->position(upper, 0).y(), before - 0.2 * kEdge);
+}
+
 TYPED_TEST(Sleep, OtherGravityWakesAll) {
   this->solver->addBody(looseCubes(2), kNoGravity);
   this->tick(60);
