@@ -134,7 +134,7 @@ void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
                    std::string("of cases: fewer settings; of ") + kStabilityReportName + ": the first " +
                        std::to_string(kQuickStabilityCases));
   report->add_flag("--long", line.sizeReport.longest,
-                   std::string("of ") + kSizeReportName + ": 32000 elements too, some ten minutes more");
+                   std::string("of ") + kSizeReportName + ": 32000 elements too, some five minutes more");
   report
       ->add_option("--cases", raw.cases,
                    std::string("of ") + kStabilityReportName + ": the first so many, default " +

@@ -19,7 +19,7 @@ inline constexpr const char* kSizeReportName = "element_size";
 
 struct SizeReportOptions {
   bool quick = false;            ///< the coarsest sizes in one packing each
-  bool longest = false;          ///< 32000 elements too: some ten minutes more
+  bool longest = false;          ///< 32000 elements too: some five minutes more
   std::filesystem::path folder;  ///< of CSV and SVG; empty: out/report
   std::filesystem::path write;   ///< a Markdown file that holds this report's markers; empty: none
 };

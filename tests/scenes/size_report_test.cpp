@@ -75,14 +75,15 @@ TEST(SizeReport, TheHashKnowsTheSizesAndTheSolver) {
 }
 
 // 0.08 m3 in 60 elements. A spring bent to its strength holds a third of one pulled to it, since stress goes
-// from nothing to f_t across its face; one that shears as well holds more, up to the closed form about.
+// from nothing to f_t across its face. At most it is sheared to the cohesion, sqrt(10) / 2 of f_t, as well,
+// by springs as stiff that way: three and a half times the closed form; blows overshoot.
 TEST(SizeReport, ABlowLeavesCracksWhoseEnergyIsTheClosedForms) {
   const demo::SizeRun run = demo::runSized(60, 1);
   EXPECT_NEAR(run.spacing, std::cbrt(0.08 / run.elements), 1e-3 * run.spacing);
   EXPECT_NEAR(run.asked, 0.2e6 * 0.2e6 * run.spacing / (2 * 30e6), 1e-9 * run.asked + 1e-12);
   EXPECT_GT(run.crackArea, 0);
   EXPECT_GT(run.tensionEnergy, run.asked / 3);
-  EXPECT_LT(run.tensionEnergy, 1.5 * run.asked);
+  EXPECT_LT(run.tensionEnergy, 4 * run.asked);
   EXPECT_GT(run.largest, 0);
   EXPECT_LE(run.heavy, run.light);
 }
