@@ -51,9 +51,14 @@ TEST(SizeReport, TheExponentIsThatOfAPowerLaw) {
 
 TEST(SizeReport, ARowIsTheMeanOfThePackings) {
   std::vector<demo::SizeRun> runs(3);
-  for (demo::SizeRun& run : runs) run = {.wanted = 500, .elements = 500, .spacing = 0.05, .exitSpeed = 6};
+  for (demo::SizeRun& run : runs) {
+    run.wanted = run.elements = 500;
+    run.exitSpeed = 6;
+  }
   runs[1].exitSpeed = 7;
-  runs[2] = {.wanted = 1000, .elements = 1001, .spacing = 0.04, .exitSpeed = 5};
+  runs[2].wanted = 1000;
+  runs[2].elements = 1001;
+  runs[2].exitSpeed = 5;
   const demo::TextRows table = demo::sizeTable(runs);
   ASSERT_EQ(table.size(), 3u);
   const auto column = std::size_t(std::ranges::find(table[0], "exit speed, m/s") - table[0].begin());
@@ -68,7 +73,9 @@ TEST(SizeReport, ARowIsTheMeanOfThePackings) {
 TEST(SizeReport, TheHashKnowsTheSizesAndTheSolver) {
   const std::string first = demo::sizeReportHash({});
   EXPECT_EQ(first.size(), 16u);
-  EXPECT_NE(demo::sizeReportHash({.longest = true}), first);
+  demo::SizeReportOptions longest;
+  longest.longest = true;
+  EXPECT_NE(demo::sizeReportHash(longest), first);
   std::vector<SolverVersion> versions(std::begin(kSolverVersions), std::end(kSolverVersions));
   versions[0].world ^= 1;
   EXPECT_NE(demo::sizeReportHash({}, versions), first);
