@@ -136,14 +136,16 @@ void addReport(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* report = app.add_subcommand("report", "error against run time, as Markdown, CSV and SVG");
   report->add_option("WHAT", raw.reported,
                      "cases with a known answer (" + reportCaseNames() + "), or " + kMaterialReportName +
-                         " (what each preset reaches of its strength and stiffness), or " +
-                         kStabilityReportName +
+                         " (what each preset reaches of its strength and stiffness), or " + kSizeReportName +
+                         " (the wall in fewer and more elements), or " + kStabilityReportName +
                          " (what stiff and extreme generated cases come to), or one scene (" + sceneNames() +
                          ", or path of a JSON file)");
   report->add_flag("--all", line.caseReport.all, "all cases");
   report->add_flag("--quick", line.caseReport.quick,
                    std::string("of cases: fewer settings; of ") + kStabilityReportName + ": the first " +
                        std::to_string(kQuickStabilityCases));
+  report->add_flag("--long", line.sizeReport.longest,
+                   std::string("of ") + kSizeReportName + ": 32000 elements too, some five minutes more");
   report
       ->add_option("--cases", raw.cases,
                    std::string("of ") + kStabilityReportName + ": the first so many, default " +
@@ -254,20 +256,34 @@ void sortStability(CommandLine& line, const Raw& raw) {
   line.stabilityReport = {raw.cases.value_or(standard), line.report.folder, line.report.write};
 }
 
-// Several words are cases; one may be a scene, the materials or stability.
+void sortSizes(CommandLine& line, const Raw& raw) {
+  if (const char* kept = keepingOption(line.caseReport))
+    throw InputError(kept, kSizeReportName, "has no reference, must be left out");
+  if (line.caseReport.quick && line.sizeReport.longest)
+    throw InputError("--quick", "", "is fewer elements and --long more, one must be left out");
+  refuseSceneOptions(raw, kSizeReportName);
+  line.command = CommandLine::Command::SizeReport;
+  line.sizeReport = {line.caseReport.quick, line.sizeReport.longest, line.report.folder, line.report.write};
+}
+
+// Several words are cases; one may be a scene, the materials, the sizes of elements or stability.
 void sortReport(CommandLine& line, const Raw& raw) {
   CaseReportOptions& cases = line.caseReport;
   if (raw.reported.empty() && !cases.all)
     throw InputError("report", "",
                      "has nothing to do, must have --all, a scene, " + std::string(kMaterialReportName) +
-                         ", " + kStabilityReportName + ", or cases of: " + reportCaseNames());
+                         ", " + kSizeReportName + ", " + kStabilityReportName +
+                         ", or cases of: " + reportCaseNames());
   const auto isAsked = [&](const char* word) {
     return raw.reported == std::vector<std::string>{word} && !cases.all;
   };
+  if (line.sizeReport.longest && !isAsked(kSizeReportName))
+    throw InputError("--long", "", std::string("is of ") + kSizeReportName + ", must be left out");
   if (isAsked(kStabilityReportName)) return sortStability(line, raw);
   if (raw.cases)
     throw InputError("--cases", std::to_string(*raw.cases),
                      std::string("is of ") + kStabilityReportName + ", must be left out");
+  if (isAsked(kSizeReportName)) return sortSizes(line, raw);
   const auto isCase = [](const std::string& word) { return findReportCase(word) != nullptr; };
   if (isAsked(kMaterialReportName)) {
     if (cases.quick) throw InputError("--quick", kMaterialReportName, "is no case, must be left out");
@@ -284,7 +300,7 @@ void sortReport(CommandLine& line, const Raw& raw) {
     if (!line.scene.empty() && !isPath(line.scene) && !isSceneName(line.scene))
       throw InputError("report", line.scene,
                        "is no case and no scene, must be one of: " + reportCaseNames() + ", " + sceneNames() +
-                           ", " + kMaterialReportName + ", " + kStabilityReportName +
+                           ", " + kMaterialReportName + ", " + kSizeReportName + ", " + kStabilityReportName +
                            ", or the path of a JSON file");
     if (cases.quick) throw InputError("--quick", line.scene, "is a scene, must be left out");
     if (const char* kept = keepingOption(cases))
@@ -345,6 +361,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
   if (line.command == CommandLine::Command::Report) sortReport(line, raw);
   if (line.command == CommandLine::Command::CaseReport ||
       line.command == CommandLine::Command::MaterialReport ||
+      line.command == CommandLine::Command::SizeReport ||
       line.command == CommandLine::Command::StabilityReport)
     return line;
   if (line.scene.empty()) throw InputError("SCENE", "", "is empty, must be a name or a path");

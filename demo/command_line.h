@@ -12,6 +12,7 @@
 #include "demo/report.h"
 #include "demo/run.h"
 #include "demo/scene.h"
+#include "demo/size_report.h"
 #include "demo/stability_report.h"
 #include "demo/view.h"
 
@@ -25,6 +26,7 @@ struct CommandLine {
     Report,
     CaseReport,
     MaterialReport,
+    SizeReport,
     StabilityReport,
     BenchPaper,
     Cook
@@ -38,6 +40,7 @@ struct CommandLine {
   ReportOptions report;
   CaseReportOptions caseReport;
   MaterialReportOptions materialReport;
+  SizeReportOptions sizeReport;
   StabilityReportOptions stabilityReport;
   BenchPaperOptions benchPaper;
   CookFileOptions cook;

@@ -118,7 +118,7 @@ std::string svgOf(const ErrorPlot& plot) {
     drawLegendEntry(svg, y, plot.lines[i].method, colour, false);
     y += kLine;
   }
-  drawLegendEntry(svg, y, "the default setting", "#000000", true);
+  if (!plot.ring.empty()) drawLegendEntry(svg, y, plot.ring, "#000000", true);
   y = bottom;
   for (const std::string& note : notes) svg.text(kMargin, y += kLine, note);
   return svg.finish();

@@ -18,9 +18,10 @@ struct ErrorPlot {
   std::string title;
   std::string timeAxis, errorAxis;  ///< what is measured, with its unit
   std::vector<Line> lines;
-  double level = 0;                ///< an error that is marked by a line across; 0: none
-  std::string levelName = {};      ///< what it is
-  std::vector<std::string> notes;  ///< below
+  double level = 0;                          ///< an error that is marked by a line across; 0: none
+  std::string levelName = {};                ///< what it is
+  std::string ring = "the default setting";  ///< what a ring marks; empty: there are none
+  std::vector<std::string> notes;            ///< below
 };
 
 /// The whole file. At least one line must have a point.

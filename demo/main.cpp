@@ -26,6 +26,7 @@ void execute(const CommandLine& line) {
   if (line.command == CommandLine::Command::CaseReport) return caseReport(line.caseReport, std::cout);
   if (line.command == CommandLine::Command::MaterialReport)
     return materialReport(line.materialReport, std::cout);
+  if (line.command == CommandLine::Command::SizeReport) return sizeReport(line.sizeReport, std::cout);
   if (line.command == CommandLine::Command::StabilityReport)
     return stabilityReport(line.stabilityReport, std::cout);
   if (line.command == CommandLine::Command::BenchPaper) return benchPaper(line.benchPaper, std::cout);
@@ -37,6 +38,7 @@ void execute(const CommandLine& line) {
     case CommandLine::Command::CaseReport:
     case CommandLine::Command::Cook:
     case CommandLine::Command::MaterialReport:
+    case CommandLine::Command::SizeReport:
     case CommandLine::Command::StabilityReport:
       break;
     case CommandLine::Command::Run:

@@ -32,6 +32,8 @@ std::string hashOf(const std::string& command) {
       return demo::caseReportHash(line.caseReport);
     case demo::CommandLine::Command::MaterialReport:
       return demo::materialReportHash();
+    case demo::CommandLine::Command::SizeReport:
+      return demo::sizeReportHash(line.sizeReport);
     case demo::CommandLine::Command::StabilityReport:
       return demo::stabilityReportHash(line.stabilityReport.cases);
     default:
