@@ -1,10 +1,15 @@
 // What Bullet's bodies have of a tick: impulses, places, and what holds them when they are at rest.
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btQuickprof.h>
+#include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "bullet/convert.h"
+#include "bullet/multibody_links.h"
 #include "bullet/world_tick.h"
 
 namespace rubble {
@@ -12,6 +17,7 @@ RUBBLE_ABI_BEGIN
 namespace {
 
 using bullet::toBullet;
+using bullet::toEigen;
 
 // A body is held by Bullet when that bears more than this share of its weight.
 constexpr double kHeldShare = 0.05;
@@ -20,11 +26,53 @@ constexpr double kHeldShare = 0.05;
 constexpr btScalar kTrust = btScalar(0.25);
 }  // namespace
 
+// Links of one multibody move each other within the tick.
+void Destruction::Impl::coupleLinks() {
+  for (std::size_t p = 0; p < proxies.size(); ++p)
+    for (std::size_t q = 0; q < proxies.size(); ++q) {
+      if (p == q || !proxies[p].mobility || !proxies[q].mobility) continue;
+      if (touched[p].link->m_multiBody != touched[q].link->m_multiBody) continue;
+      proxies[p].coupled.push_back(
+          {std::uint32_t(q), bullet::mobilityOf(*touched[p].link, *touched[q].link)});
+    }
+}
+
+// Links have theirs at once: Bullet makes its rows for multibodies when all constraints have been set up,
+// from the velocities of then.
+void Destruction::Impl::giveLinks(double dt, std::span<const edem::RigidProxy> start) {
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    if (!touched[p].link || !(proxies[p].contactWeight > 0)) continue;
+    bullet::LinkMotion impulse;
+    impulse << proxies[p].impulse, proxies[p].angularImpulse;
+    const auto change = [&](bullet::TouchedBody& t, const bullet::LinkMobility& mobility) {
+      const bullet::LinkMotion by = mobility * impulse;
+      t.deltaVelocity += toBullet(Eigen::Vector3d(by.head<3>()));
+      t.deltaSpin += toBullet(Eigen::Vector3d(by.tail<3>()));
+    };
+    change(touched[p], bullet::mobilityOf(*touched[p].link));
+    for (const edem::RigidProxy::Coupling& other : proxies[p].coupled)
+      change(touched[other.proxy], other.mobility);
+  }
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    bullet::TouchedBody& t = touched[p];
+    if (!t.link || !(proxies[p].contactWeight > 0)) continue;
+    const edem::RigidProxy& s = start[p];
+    const btTransform begin(toBullet(s.orientation), toBullet(s.position));
+    btTransformUtil::integrateTransform(
+        begin, toBullet(Eigen::Vector3d(s.velocity + dt * s.acceleration)) + t.deltaVelocity,
+        toBullet(Eigen::Vector3d(s.spin + dt * s.angularAcceleration)) + t.deltaSpin, btScalar(dt),
+        t.freeEnd);
+    bullet::push(*t.link, proxies[p].impulse, proxies[p].angularImpulse);
+  }
+}
+
 // Actions of the application that come first in a tick may have taken bodies out of the world.
 void Destruction::Impl::forgetTaken() {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (bullet::TouchedBody& t : touched)
     if (t.rigid && objects.findLinearSearch(t.object) == objects.size()) t.rigid = nullptr;
+  for (bullet::TouchedBody& t : touched)
+    if (t.link && objects.findLinearSearch(t.object) == objects.size()) t.link = nullptr;
 }
 
 // Impulses that no solver iteration took (MLCP, multi-threaded and sleeping islands).
@@ -44,7 +92,16 @@ void Destruction::Impl::fixPositions() {
   BT_PROFILE("Rubble fix positions");
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
-    if (!t.rigid || !(proxies[p].contactWeight > 0) || isHeld(*t.rigid)) continue;
+    if ((!t.rigid && !t.link) || !(proxies[p].contactWeight > 0) || isHeld(*t.object)) continue;
+    if (t.link) {
+      if (!proxies[p].coupled.empty()) continue;  // each moves the others, too
+      const btQuaternion turn = toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse();
+      bullet::LinkMotion way;
+      way << proxies[p].position - toEigen(t.freeEnd.getOrigin()),
+          toEigen(turn.getAxis()) * std::remainder(double(turn.getAngle()), 2 * std::numbers::pi);
+      bullet::shift(*t.link, way);
+      continue;
+    }
     btTransform at = t.rigid->getWorldTransform();
     at.setOrigin(at.getOrigin() + toBullet(proxies[p].position) - t.freeEnd.getOrigin());
     at.setRotation((toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse() * at.getRotation())
@@ -56,12 +113,11 @@ void Destruction::Impl::fixPositions() {
 
 // Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs. Where nothing
 // has weight nothing is borne: what is slow there turns back on the elements.
-bool Destruction::Impl::isHeld(const btRigidBody& rigid) const {
+bool Destruction::Impl::isHeld(const btCollisionObject& body) const {
   const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
   if (!(least > 0)) return false;
-  return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
-    return r.body == &rigid && r.linear.length() > least;
-  });
+  return std::any_of(reactions.begin(), reactions.end(),
+                     [&](const bullet::Reaction& r) { return r.body == &body && r.linear.length() > least; });
 }
 
 // A body that was at rest before and after this tick is held by something that only Bullet knows: the
@@ -73,10 +129,19 @@ void Destruction::Impl::noteReactions(double dt) {
   const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
   const btScalar rate = btScalar(1 / dt);
   for (const bullet::TouchedBody& t : touched) {
-    if (!t.rigid || t.velocity.length() > quiet || t.rigid->getLinearVelocity().length() > quiet) continue;
-    bullet::Reaction now{
-        t.rigid, rate * (t.rigid->getLinearVelocity() - t.velocity - t.deltaVelocity) - t.acceleration,
-        rate * (t.rigid->getAngularVelocity() - t.spin - t.deltaSpin) - t.angularAcceleration};
+    if ((!t.rigid && !t.link) || t.velocity.length() > quiet) continue;
+    btVector3 velocity, spin;
+    if (t.link) {
+      const bullet::LinkMotion motion = bullet::motionOf(*t.link);
+      velocity = toBullet(Eigen::Vector3d(motion.head<3>()));
+      spin = toBullet(Eigen::Vector3d(motion.tail<3>()));
+    } else {
+      velocity = t.rigid->getLinearVelocity();
+      spin = t.rigid->getAngularVelocity();
+    }
+    if (velocity.length() > quiet) continue;
+    bullet::Reaction now{t.object, rate * (velocity - t.velocity - t.deltaVelocity) - t.acceleration,
+                         rate * (spin - t.spin - t.deltaSpin) - t.angularAcceleration};
     for (const bullet::Reaction& last : before) {
       if (last.body != now.body) continue;
       now.linear = last.linear + kTrust * (now.linear - last.linear);

@@ -6,6 +6,7 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletSoftBody/btSoftBody.h>
 
 #include <algorithm>
 #include <limits>
@@ -136,12 +137,16 @@ class ElementAlgorithm : public btCollisionAlgorithm {
   }
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                        const btDispatcherInfo&, btManifoldResult* result) override {
+                        const btDispatcherInfo& info, btManifoldResult* result) override {
     const btCollisionObject *a = first->getCollisionObject(), *b = second->getCollisionObject();
     const DestructibleBody *ownA = upcastElements(a), *ownB = upcastElements(b);
     m_manifold->clearManifold();  // elements move within their body's frame: no point outlives a tick
     m_touching = !m_isQuery && ownA && ownB;  // as far as is known without a look at all their elements
     if (!ownA == !ownB) return;
+    if (const btSoftBody* soft = btSoftBody::upcast(ownA ? b : a)) {
+      if (!m_isQuery) meet(ownA ? *ownA : *ownB, *soft, info);
+      return;
+    }
     if (!m_isQuery) note(ownA ? *ownA : *ownB, ownA ? *b : *a);
     result->setPersistentManifold(m_manifold);
     const double margin = m_isQuery ? double(result->m_closestPointDistanceThreshold)
@@ -165,8 +170,16 @@ class ElementAlgorithm : public btCollisionAlgorithm {
 
  private:
   static void note(const DestructibleBody& own, const btCollisionObject& other) {
-    if (!other.hasContactResponse()) return;
+    // A character walks by its ghost's sweeps, sinks into what it stands on and would crush it.
+    const bool isGhost = other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
+    if (isGhost || !other.hasContactResponse()) return;
     const_cast<DestructibleBody&>(own).impl().near.push_back(const_cast<btCollisionObject*>(&other));
+  }
+
+  static void meet(const DestructibleBody& own, const btSoftBody& soft, const btDispatcherInfo& info) {
+    if (Destruction::Impl* world = own.impl().world)
+      world->softContacts.meet(const_cast<DestructibleBody&>(own), const_cast<btSoftBody&>(soft),
+                               double(info.m_timeStep));
   }
 
   btPersistentManifold* m_manifold;

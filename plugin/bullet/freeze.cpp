@@ -75,7 +75,7 @@ void Destruction::Impl::freeze(DestructibleBody& body) {
   body.setInterpolationLinearVelocity(body.getLinearVelocity());
   body.setInterpolationAngularVelocity(body.getAngularVelocity());
   body.applyGravity();  // for the ticks that are left of this call: Bullet did it at the call's start
-  world.getPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), world.getDispatcher());
+  cleanPairs(body);
   world.updateSingleAabb(&body);
 }
 

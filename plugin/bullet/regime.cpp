@@ -1,5 +1,7 @@
 // Bodies that are Bullet's until they are struck.
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btQuickprof.h>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
+#include "bullet/multibody_links.h"
 #include "bullet/swept_bodies.h"
 #include "bullet/thaw.h"
 #include "bullet/world_tick.h"
@@ -48,6 +51,12 @@ struct Sweep {
   double turning = 0;
 
   Sweep(const btCollisionObject& object, double dt) {
+    if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
+      const bullet::LinkMotion motion = bullet::motionOf(*link);
+      velocity = toBullet(Eigen::Vector3d(motion.head<3>()));
+      turning = motion.tail<3>().norm() * double(object.getCollisionShape()->getAngularMotionDisc());
+      return;
+    }
     const btRigidBody* body = btRigidBody::upcast(&object);
     if (!body || (object.isStaticObject() && !object.isKinematicObject())) return;
     velocity = body->getLinearVelocity() + btScalar(dt) * body->getInvMass() * body->getTotalForce();
@@ -96,6 +105,7 @@ void Destruction::Impl::placeWhole(DestructibleBody& body) {
 }
 
 bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
+  if (other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT) return false;  // presses no elements
   const double least = bullet::strikingSpeed(body.material());
   const DestructibleBody* elements = upcastElements(&other);
   const Sweep sweep(body, dt);
@@ -110,7 +120,8 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
   placeWhole(body);
   if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body, {}), least, dt);
   const Eigen::AlignedBox3d reached = reachedBox(body, bound * dt);
-  const edem::RigidProxy partner = blowMaker.make(other, std::span(&reached, 1));
+  edem::RigidProxy partner = blowMaker.make(other, std::span(&reached, 1));
+  if (const auto* link = btMultiBodyLinkCollider::upcast(&other)) bullet::take(*link, dt, partner);
   const bullet::RigidMotion own{toEigen(body.getWorldTransform().getOrigin()),
                                 toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity()),
                                 double(body.getInvMass()) * toEigen(body.getTotalForce())};
@@ -172,8 +183,20 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
     if (&a != &body && &b != &body) return;
     btCollisionObject& other = &a == &body ? b : a;
-    if (other.hasContactResponse()) own.near.push_back(&other);
+    const int kind = other.getInternalType();
+    const bool isSparing =
+        kind == btCollisionObject::CO_SOFT_BODY || kind == btCollisionObject::CO_GHOST_OBJECT;
+    if (other.hasContactResponse() && !isSparing) own.near.push_back(&other);
   });
+}
+
+// Algorithms are of the shape that it had. Ghosts have pairs of their own beside the world's.
+void Destruction::Impl::cleanPairs(DestructibleBody& body) {
+  btBroadphaseProxy* handle = body.getBroadphaseHandle();
+  world.getPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());
+  for (int i = 0; i < world.getNumCollisionObjects(); ++i)
+    if (auto* ghost = dynamic_cast<btPairCachingGhostObject*>(world.getCollisionObjectArray()[i]))
+      ghost->getOverlappingPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());
 }
 
 // Now that Bullet has moved what was in its solver.
@@ -185,8 +208,7 @@ void Destruction::Impl::finishThaws() {
     body->setCollisionFlags(own.flags);
     own.settings = bullet::settingsOf(*body);
     bullet::beElements(*body);
-    btBroadphaseProxy* handle = body->getBroadphaseHandle();
-    world.getPairCache()->cleanProxyFromPairs(handle, world.getDispatcher());
+    cleanPairs(*body);
     world.updateSingleAabb(body);
   }
 }

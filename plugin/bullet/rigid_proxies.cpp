@@ -12,6 +12,7 @@
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <BulletCollision/CollisionShapes/btUniformScalingShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 
 #include "base/hash.h"
 #include "bullet/convert.h"
+#include "bullet/multibody_links.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -267,6 +269,10 @@ void RigidProxies::refuse(const btCollisionShape& shape) {
   const int type = 2 * shape.getShapeType() + (flat ? 1 : 0);
   if (std::find(m_refused.begin(), m_refused.end(), type) != m_refused.end()) return;
   m_refused.push_back(type);
+  if (shape.getShapeType() == SOFTBODY_SHAPE_PROXYTYPE) {  // elements meet its nodes (SoftContacts)
+    if (m_log) m_log(LogLevel::Warning, "debris pass through soft bodies");
+    return;
+  }
   if (m_log)
     m_log(LogLevel::Warning, std::string("shape ") + shape.getName() +
                                  " does not touch destructible bodies: " +
@@ -291,6 +297,12 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object,
     proxy.spin = toEigen(rigid->getAngularVelocity());
     const bool locked = rigid->getLinearFactor().isZero() && rigid->getAngularFactor().isZero();
     proxy.inverseMass = proxy.kinematic || locked ? 0.0 : double(rigid->getInvMass());
+  }
+  if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
+    const LinkMotion motion = motionOf(*link);
+    proxy.velocity = motion.head<3>();
+    proxy.spin = motion.tail<3>();
+    proxy.kinematic = !motion.isZero(0);  // of mass 0 but on its way, for who asks between the ticks
   }
   if (proxy.isDynamic()) {
     // All that Bullet's solver will integrate in this tick: gravity and the application's forces.

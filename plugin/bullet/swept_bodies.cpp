@@ -1,6 +1,7 @@
 #include "bullet/swept_bodies.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btAabbUtil2.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
+#include "bullet/multibody_links.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -19,6 +21,12 @@ constexpr double kRebound = 2;
 
 // No point of the object is faster within the tick, as long as nothing strikes it [m/s].
 double surfaceSpeed(const btCollisionObject& object, double dt) {
+  if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
+    const LinkMotion motion = motionOf(*link);
+    const double speed = motion.head<3>().norm() +
+                         motion.tail<3>().norm() * double(object.getCollisionShape()->getAngularMotionDisc());
+    return std::isfinite(speed) ? speed : 0;
+  }
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (!rigid || (object.isStaticObject() && !object.isKinematicObject())) return 0;
   const btScalar gained = btScalar(dt) * rigid->getInvMass() * rigid->getTotalForce().length();
@@ -50,7 +58,10 @@ class Reachable : public btBroadphaseAabbCallback {
 
   bool process(const btBroadphaseProxy* found) override {
     auto* object = static_cast<btCollisionObject*>(found->m_clientObject);
-    if (upcastElements(object) || !object->hasContactResponse()) return true;
+    const int kind = object->getInternalType();
+    const bool isSparing =
+        kind == btCollisionObject::CO_SOFT_BODY || kind == btCollisionObject::CO_GHOST_OBJECT;
+    if (upcastElements(object) || isSparing || !object->hasContactResponse()) return true;
     // The broadphase may keep wider boxes than the objects' own, after how they moved.
     if (!TestAabbAgainstAabb2(m_low, m_high, found->m_aabbMin, found->m_aabbMax)) return true;
     if (mayTouch(m_world, m_own, *object)) m_objects.push_back(object);

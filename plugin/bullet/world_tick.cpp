@@ -1,5 +1,6 @@
 #include "bullet/world_tick.h"
 
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btQuickprof.h>
 #include <LinearMath/btTransformUtil.h>
 
@@ -13,6 +14,7 @@
 #include "bullet/body_impl.h"
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
+#include "bullet/multibody_links.h"
 #include "bullet/swept_bodies.h"
 #include "debris/bond.h"
 #include "edem/own_weight.h"
@@ -48,7 +50,8 @@ Destruction::Impl::Impl(btDiscreteDynamicsWorld& bulletWorld, const DestructionD
                                                        .sleepSpeed = definition.sleep ? kQuietSpeed : 0,
                                                        .settleSpeed = definition.sleep ? kSettleSpeed : 0})),
       algorithms(*static_cast<btCollisionDispatcher*>(bulletWorld.getDispatcher())),
-      proxyMaker(definition.log) {
+      proxyMaker(definition.log),
+      softContacts(definition.log) {
   if (!limits::kMaxEvents.hold(def.maxEvents))
     throw Error("maxEvents: is " + std::to_string(def.maxEvents) + ", must be " + limits::kMaxEvents.text());
   if (!def.debris) return;
@@ -145,6 +148,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   if (found == bodies.end()) return;
   bodies.erase(found);
   forgetJointsOf(body);
+  softContacts.forget(body);
   wholes -= body.isWhole();
   world.removeConstraint(body.impl().coupler.get());
   const edem::Books before = solver->books();
@@ -187,25 +191,29 @@ void Destruction::Impl::gatherProxies(double dt) {
       const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
       if (upcastElements(object) || std::any_of(touched.begin(), touched.end(), known)) continue;
       edem::RigidProxy proxy = proxyMaker.make(*object, boxes);
+      auto* link = btMultiBodyLinkCollider::upcast(object);
+      if (link) bullet::take(*link, dt, proxy);
       if (proxy.parts.empty()) continue;
       bullet::TouchedBody t;
       t.object = object;
-      if (btRigidBody* rigid = proxy.isDynamic() ? btRigidBody::upcast(object) : nullptr) {
-        t.rigid = rigid;
-        t.velocity = rigid->getLinearVelocity();
-        t.spin = rigid->getAngularVelocity();
+      if (proxy.isDynamic()) {
+        t.rigid = btRigidBody::upcast(object);
+        t.link = link;
+        t.velocity = toBullet(proxy.velocity);
+        t.spin = toBullet(proxy.spin);
         t.acceleration = toBullet(proxy.acceleration);
         t.angularAcceleration = toBullet(proxy.angularAcceleration);
         // Without it a crate that stands on the ground would fall through every tick's substeps and be put
         // back. Under what lies on it calmly it stands like a rock, for Bullet holds it again after the tick.
         for (const bullet::Reaction& held : reactions) {
-          if (held.body != rigid) continue;
+          if (held.body != object) continue;
           proxy.acceleration += toEigen(held.linear);
           proxy.angularAcceleration += toEigen(held.angular);
         }
-        if (isHeld(*rigid) && solver->maxSpeed(body->id()) < kCalmSpeed) {
+        if (isHeld(*object) && solver->maxSpeed(body->id()) < kCalmSpeed) {
           t.held = true;
           proxy.inverseMass = 0;
+          proxy.mobility.reset();
           proxy.kinematic = true;
           proxy.velocity.setZero();
           proxy.spin.setZero();
@@ -216,6 +224,7 @@ void Destruction::Impl::gatherProxies(double dt) {
     }
     body->impl().near.clear();
   }
+  coupleLinks();
   spareFiltered();
 }
 
@@ -234,6 +243,7 @@ void Destruction::Impl::spareFiltered() {
 void Destruction::Impl::advance(double dt) {
   if (advanced || !failure.empty()) return;
   BT_PROFILE("Rubble advance");
+  softContacts.deliver(*solver, dt);
   takeHostMoves(dt);
   followSleep();
   substeps = 0;
@@ -275,6 +285,7 @@ void Destruction::Impl::advance(double dt) {
         t.freeEnd);
     if (proxies[p].contactWeight > 0 && !t.rigid->isActive()) t.rigid->activate();
   }
+  giveLinks(dt, start);
   for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
 }
 
@@ -316,6 +327,7 @@ void Destruction::Impl::finish(double dt) {
   if (failure.empty()) placeWholes();
   updateSleep(dt);
   for (DestructibleBody* body : bodies) body->impl().inSolver = false;
+  softContacts.close();
   advanced = lookedForBlows = false;
   ++ticks;
   seconds += dt;

@@ -11,9 +11,12 @@
 #include "bullet/joints.h"
 #include "bullet/ledger_book.h"
 #include "bullet/rigid_proxies.h"
+#include "bullet/soft_contacts.h"
 #include "debris/debris_system.h"
 #include "edem/solver.h"
 #include "rubble/destruction.h"
+
+class btMultiBodyLinkCollider;
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -21,7 +24,8 @@ RUBBLE_ABI_BEGIN
 /// A Bullet object that took part in this tick's substeps.
 struct TouchedBody {
   btCollisionObject* object = nullptr;
-  btRigidBody* rigid = nullptr;  ///< null unless dynamic
+  btRigidBody* rigid = nullptr;             ///< null unless dynamic
+  btMultiBodyLinkCollider* link = nullptr;  ///< null unless that, and its joints let it move
   btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
   bool given = false;                                             ///< Bullet's solver has taken it
   bool held = false;                                              ///< stood still through the substeps
@@ -33,7 +37,7 @@ struct TouchedBody {
 
 /// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.
 struct Reaction {
-  const btRigidBody* body = nullptr;  ///< compared only
+  const btCollisionObject* body = nullptr;  ///< compared only
   btVector3 linear{0, 0, 0}, angular{0, 0, 0};
 };
 
@@ -71,7 +75,8 @@ struct Destruction::Impl {
   std::vector<edem::RigidProxy> proxies;              ///< beside `touched`
   std::vector<bullet::Reaction> reactions;            ///< of the last tick
   std::vector<bullet::HeldJoint> joints, lastJoints;  ///< the application's, to bodies of elements
-  bool advanced = false;                              ///< in this tick
+  bullet::SoftContacts softContacts;
+  bool advanced = false;  ///< in this tick
   bullet::LedgerBook ledgerBook;
   bullet::EnergyAlarm energyAlarm;
   Events events[2];
@@ -96,9 +101,12 @@ struct Destruction::Impl {
   void followElements();
   void forgetTaken();
   void lateImpulses();
+  void coupleLinks();
+  void cleanPairs(DestructibleBody& body);
+  void giveLinks(double dt, std::span<const edem::RigidProxy> start);
   void fixPositions();
   void noteReactions(double dt);
-  bool isHeld(const btRigidBody& rigid) const;
+  bool isHeld(const btCollisionObject& body) const;
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();

@@ -484,7 +484,18 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
     books.bullet.linear -= kick * state.force;
     books.bullet.angular -= kick * ((proxy.position - books.centre).cross(state.force) + state.torque);
     books.bullet.size += kick * state.size;
-    if (proxy.isDynamic()) {
+    if (proxy.mobility) {
+      Eigen::Matrix<double, 6, 1> push;
+      push << state.force, state.torque;
+      for (const RigidProxy::Coupling& other : proxy.coupled) {
+        const Eigen::Matrix<double, 6, 1> moved = kick * (other.mobility * push);
+        m_proxies[other.proxy].velocity += moved.head<3>();
+        m_proxies[other.proxy].spin += moved.tail<3>();
+      }
+      push = *proxy.mobility * push;
+      proxy.velocity += kick * (push.head<3>() + proxy.acceleration);
+      proxy.spin += kick * (push.tail<3>() + proxy.angularAcceleration);
+    } else if (proxy.isDynamic()) {
       const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
       proxy.velocity += kick * (proxy.inverseMass * state.force + proxy.acceleration);
       proxy.spin += kick * (turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * state.torque)) +

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,15 @@ struct RigidProxy {
   Eigen::Vector3d angularAcceleration = Eigen::Vector3d::Zero();  ///< [rad/s^2]
   double inverseMass = 0;                                    ///< 0: static or moved by the application [1/kg]
   Eigen::Vector3d inverseInertia = Eigen::Vector3d::Zero();  ///< along its own axes [1/(kg m^2)]
+  /// Of a link of an articulated body: what an impulse on it and one of rotation about its centre change of
+  /// its velocity and spin, world axes. Then the two above are its largest share of each.
+  std::optional<Eigen::Matrix<double, 6, 6>> mobility;
+  /// What the same changes of other links of that body.
+  struct Coupling {
+    std::uint32_t proxy;  ///< its place in the list
+    Eigen::Matrix<double, 6, 6> mobility;
+  };
+  std::vector<Coupling> coupled;
   double friction = 0.5;   ///< mu of the pair is this times the element's, as Bullet combines them
   double restitution = 0;  ///< that of the pair is this times the element's
   std::vector<Collider> parts;

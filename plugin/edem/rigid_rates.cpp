@@ -27,6 +27,10 @@ double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
 double mobilityAt(const RigidProxy& proxy, const Eigen::Vector3d& from, double size) {
   const Eigen::Vector3d& turns = proxy.inverseInertia;
   const double reach = proxy.reach(), lever2 = std::min(from.squaredNorm(), reach * reach);
+  if (proxy.mobility) {  // both shares at once: (a + b)^2 is 2 (a^2 + b^2) at most
+    const double lever = std::min(from.norm() + size, reach);
+    return 2 * double(1 + proxy.coupled.size()) * (proxy.inverseMass + lever * lever * turns.maxCoeff());
+  }
   // What is long and narrow turns easily about its axis alone, and near it: by the trace of that matrix.
   Eigen::AlignedBox3d all;
   for (const Collider& part : proxy.parts) all.extend(part.bounds());
