@@ -8,8 +8,10 @@
 namespace rubble::test {
 namespace {
 
-constexpr btScalar kRadius = btScalar(0.15), kHeight = btScalar(0.4), kStep = btScalar(0.15);
-constexpr btScalar kRate = 60, kFoot = kRadius + kHeight / 2;  // the capsule's middle above its foot [m]
+constexpr btScalar kWalkerRadius = btScalar(0.15), kWalkerHeight = btScalar(0.4),
+                   kWalkerStep = btScalar(0.15);
+constexpr btScalar kWalkRate = 60,
+                   kFoot = kWalkerRadius + kWalkerHeight / 2;  // the capsule's middle above its foot [m]
 
 struct Walker {
   Walker(BulletWorld& world, const btVector3& foot) : w(world) {
@@ -19,7 +21,7 @@ struct Walker {
     ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), foot + btVector3(0, kFoot, 0)));
     w.world.addCollisionObject(&ghost, btBroadphaseProxy::CharacterFilter, btBroadphaseProxy::AllFilter);
     controller =
-        std::make_unique<btKinematicCharacterController>(&ghost, &capsule, kStep, btVector3(0, 1, 0));
+        std::make_unique<btKinematicCharacterController>(&ghost, &capsule, kWalkerStep, btVector3(0, 1, 0));
     controller->setGravity({0, btScalar(-9.81), 0});
     // It turns its ghost from z up.
     ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), foot + btVector3(0, kFoot, 0)));
@@ -31,9 +33,9 @@ struct Walker {
     w.world.getPairCache()->setInternalGhostPairCallback(nullptr);
   }
   void walk(const btVector3& velocity, double seconds) {
-    controller->setWalkDirection(velocity / kRate);
-    for (int tick = 0; tick < int(std::lround(seconds * double(kRate))); ++tick) {
-      w.world.stepSimulation(1 / kRate, 1, 1 / kRate);
+    controller->setWalkDirection(velocity / kWalkRate);
+    for (int tick = 0; tick < int(std::lround(seconds * double(kWalkRate))); ++tick) {
+      w.world.stepSimulation(1 / kWalkRate, 1, 1 / kWalkRate);
       lowest = std::min(lowest, foot().y());
     }
     controller->setWalkDirection({0, 0, 0});
@@ -45,7 +47,7 @@ struct Walker {
   }
 
   BulletWorld& w;
-  btCapsuleShape capsule{kRadius, kHeight};
+  btCapsuleShape capsule{kWalkerRadius, kWalkerHeight};
   btGhostPairCallback callback;
   btPairCachingGhostObject ghost;
   std::unique_ptr<btKinematicCharacterController> controller;
@@ -93,7 +95,7 @@ Ways along(Made made, const Eigen::Vector3i& cubes, const btVector3& corner, con
 class Character : public testing::TestWithParam<Made> {};
 
 // What Bullet keeps between a capsule and a box, and what a slab gives under its own weight [m].
-constexpr double kMargin = 0.015;
+constexpr double kWalkMargin = 0.015;
 // By which Bullet's controller sinks into whatever it stands on, its own boxes too [m].
 constexpr double kSinks = 0.04;
 
@@ -104,10 +106,10 @@ TEST_P(Character, WalksOnASlab) {
   };
   const Ways box = walk(Made::OfBullet), own = walk(GetParam());
   EXPECT_NEAR(double(box.end.x()), 0.35, 0.02);  // it does walk
-  EXPECT_NEAR(double(box.end.y()), 0.1 - kSinks, kMargin);
-  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), kMargin);
-  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kMargin);
-  EXPECT_GT(double(own.lowest), double(box.lowest) - kMargin);
+  EXPECT_NEAR(double(box.end.y()), 0.1 - kSinks, kWalkMargin);
+  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), kWalkMargin);
+  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kWalkMargin);
+  EXPECT_GT(double(own.lowest), double(box.lowest) - kWalkMargin);
   EXPECT_EQ(own.whole, GetParam() == Made::Whole);
   EXPECT_TRUE(own.overlapped);
 }
@@ -118,9 +120,9 @@ TEST_P(Character, IsStoppedByAWall) {
                  {1, 0, 0}, 2);
   };
   const Ways box = walk(Made::OfBullet), own = walk(GetParam());
-  EXPECT_NEAR(double(box.end.x()), 0.3 - double(kRadius), 0.05);
-  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), kMargin);
-  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kMargin);
+  EXPECT_NEAR(double(box.end.x()), 0.3 - double(kWalkerRadius), 0.05);
+  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), kWalkMargin);
+  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kWalkMargin);
 }
 
 TEST_P(Character, StepsUpOnASlab) {
@@ -129,9 +131,9 @@ TEST_P(Character, StepsUpOnASlab) {
                  {btScalar(0.5), 0, 0}, 2);
   };
   const Ways box = walk(Made::OfBullet), own = walk(GetParam());
-  EXPECT_NEAR(double(box.end.y()), 0.1 - kSinks, kMargin);
-  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), 2 * kMargin);
-  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kMargin);
+  EXPECT_NEAR(double(box.end.y()), 0.1 - kSinks, kWalkMargin);
+  EXPECT_NEAR(double(own.end.x()), double(box.end.x()), 2 * kWalkMargin);
+  EXPECT_NEAR(double(own.end.y()), double(box.end.y()), kWalkMargin);
 }
 
 // A ball of 50 kg at 15 m/s breaks the slab; then it walks over what lies there. It stays above the ground,
@@ -141,7 +143,7 @@ TEST_P(Character, WalksOnTheRubble) {
   Course c(GetParam(), {24, 2, 10}, {btScalar(-0.6), 0, btScalar(-0.25)});
   btRigidBody* ball = c.w.add(50, c.w.ballShape, {0, btScalar(0.25), 0});
   ball->setLinearVelocity({0, -15, 0});
-  for (int tick = 0; tick < 40; ++tick) c.w.world.stepSimulation(1 / kRate, 1, 1 / kRate);
+  for (int tick = 0; tick < 40; ++tick) c.w.world.stepSimulation(1 / kWalkRate, 1, 1 / kWalkRate);
   c.w.remove(ball);
   const DestructionCounts counts = c.w.destruction->counts();
   ASSERT_GT(counts.fragments + counts.crushed, 1u);
@@ -150,7 +152,7 @@ TEST_P(Character, WalksOnTheRubble) {
   EXPECT_GT(double(walker.foot().y()), 0.05 - kSinks);  // on the slab's end
   walker.walk({btScalar(0.4), 0, 0}, 2);
   EXPECT_GT(double(walker.foot().x()), 0.2);
-  EXPECT_GT(double(walker.lowest), -kSinks - kMargin);
+  EXPECT_GT(double(walker.lowest), -kSinks - kWalkMargin);
 }
 
 INSTANTIATE_TEST_SUITE_P(On, Character, testing::Values(Made::OfElements), [](const auto& tested) {
@@ -169,7 +171,7 @@ TEST(Ghost, ListsADestructible) {
     ghost.setWorldTransform(
         btTransform(btQuaternion::getIdentity(), {btScalar(0.1), btScalar(0.15), btScalar(0.1)}));
     c.w.world.addCollisionObject(&ghost, btBroadphaseProxy::SensorTrigger, btBroadphaseProxy::AllFilter);
-    for (int tick = 0; tick < 10; ++tick) c.w.world.stepSimulation(1 / kRate, 1, 1 / kRate);
+    for (int tick = 0; tick < 10; ++tick) c.w.world.stepSimulation(1 / kWalkRate, 1, 1 / kWalkRate);
     bool listed = false;
     for (int i = 0; i < ghost.getNumOverlappingObjects(); ++i)
       listed |= ghost.getOverlappingObject(i) == c.body;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bullet/bullet_world.h"
+#include "bullet/regime_bodies.h"
 #include "support/grid_asset.h"
 
 namespace rubble::test {
@@ -49,12 +50,6 @@ DestructibleBody* addBlock(BulletWorld& w, double height, double x = 0.13) {
   def.transform.setOrigin({btScalar(x), btScalar(height), btScalar(0.07)});
   def.regime = Regime::Elements;
   return w.destruction->addBody(def);
-}
-
-std::vector<ElementPose> posesOf(const DestructibleBody& body) {
-  std::vector<ElementPose> poses(body.elementsAlive().size());
-  body.poses(poses);
-  return poses;
 }
 
 // Of the centres.

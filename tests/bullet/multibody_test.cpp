@@ -10,7 +10,7 @@
 namespace rubble::test {
 namespace {
 
-constexpr btScalar kRate = 120;
+constexpr btScalar kLinkRate = 120;
 
 struct LinkWorld {
   explicit LinkWorld(double gravity) {
@@ -63,8 +63,8 @@ struct LinkWorld {
     return collider;
   }
   void run(double seconds) {
-    for (int tick = 0; tick < int(std::lround(seconds * double(kRate))); ++tick)
-      world.stepSimulation(1 / kRate, 1, 1 / kRate);
+    for (int tick = 0; tick < int(std::lround(seconds * double(kLinkRate))); ++tick)
+      world.stepSimulation(1 / kLinkRate, 1, 1 / kLinkRate);
   }
 
   btDefaultCollisionConfiguration configuration;
@@ -168,7 +168,7 @@ TEST_P(Multibody, LinksRestOnASlab) {
   double most = 0;
   w.run(1);
   for (int tick = 0; tick < 120; ++tick) {
-    w.run(1 / double(kRate));
+    w.run(1 / double(kLinkRate));
     most = std::max({most, std::abs(double(body->getBasePos().y()) - 0.2),
                      std::abs(double(link->getWorldTransform().getOrigin().y()) - 0.2)});
   }

@@ -9,7 +9,7 @@
 namespace rubble::test {
 namespace {
 
-constexpr btScalar kRate = 120;
+constexpr btScalar kSoftRate = 120;
 enum class Under { OfBullet, Elements, Whole };
 
 struct SoftWorld {
@@ -86,8 +86,8 @@ struct SoftWorld {
     return sum;
   }
   void run(double seconds) {
-    for (int tick = 0; tick < int(std::lround(seconds * double(kRate))); ++tick)
-      world.stepSimulation(1 / kRate, 1, 1 / kRate);
+    for (int tick = 0; tick < int(std::lround(seconds * double(kSoftRate))); ++tick)
+      world.stepSimulation(1 / kSoftRate, 1, 1 / kSoftRate);
   }
 
   btSoftBodyRigidBodyCollisionConfiguration configuration;
