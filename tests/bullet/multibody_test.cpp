@@ -173,7 +173,8 @@ TEST_P(Multibody, LinksRestOnASlab) {
                      std::abs(double(link->getWorldTransform().getOrigin().y()) - 0.2)});
   }
   EXPECT_LT(most, 0.006);
-  EXPECT_LT(double(body->getBaseVel().length()), 0.02);
+  // It trembles, by less than half of what gravity adds in a tick.
+  EXPECT_LT(double(body->getBaseVel().length()), 0.5 * 9.81 / double(kLinkRate));
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
   EXPECT_EQ(slab->isWhole(), GetParam() == Regime::RigidUntilStruck);
 }
