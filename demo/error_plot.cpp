@@ -14,14 +14,14 @@ namespace {
 // Lengths in pixels of the SVG.
 constexpr double kLeft = 70, kTop = 64;  // of the plot's corner
 constexpr double kPlotWidth = 480, kPlotHeight = 340;
-constexpr double kLegend = 310;  // right of the plot
-constexpr double kWidth = kLeft + kPlotWidth + kLegend;
-constexpr double kLine = 16;  // of text
+constexpr double kLegend = 310;  // right of the plot, at least
+constexpr double kLetterWidth = 6.5;  // mean width
+constexpr double kLine = 16;     // of text
 constexpr double kDot = 3.5, kRing = 7;
 constexpr double kMargin = 10;
 
 // Told apart by people who see few colours (Okabe and Ito, Color Universal Design, 2008); methods beyond
-// start again.
+// start again with squares for dots.
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 
@@ -74,15 +74,28 @@ void drawAxes(Svg& svg, const Frame& frame, const ErrorPlot& plot) {
   svg.text(kLeft + kPlotWidth / 2, kTop + kPlotHeight + 2 * kLine, plot.timeAxis, "middle");
 }
 
-void drawLine(Svg& svg, const Frame& frame, const ErrorPlot::Line& line, const std::string& colour) {
+struct Look {
+  explicit Look(std::size_t line)
+      : colour(kColours[line % kColours.size()]), square(line / kColours.size() % 2 == 1) {}
+  void draw(Svg& svg, double x, double y) const {
+    if (square)
+      svg.rectangle(x - kDot, y - kDot, 2 * kDot, 2 * kDot, colour);
+    else
+      svg.circle(x, y, kDot, colour);
+  }
+  const char* colour;
+  bool square;
+};
+
+void drawLine(Svg& svg, const Frame& frame, const ErrorPlot::Line& line, const Look& look) {
   constexpr double kThickness = 1.5;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     const ErrorPlot::Point &a = line.points[i - 1], &b = line.points[i];
-    svg.line(frame.x(a.time), frame.y(a.error), frame.x(b.time), frame.y(b.error), colour, kThickness);
+    svg.line(frame.x(a.time), frame.y(a.error), frame.x(b.time), frame.y(b.error), look.colour, kThickness);
   }
   for (const ErrorPlot::Point& point : line.points) {
-    svg.circle(frame.x(point.time), frame.y(point.error), kDot, colour);
-    if (point.standard) svg.circle(frame.x(point.time), frame.y(point.error), kRing, colour, false);
+    look.draw(svg, frame.x(point.time), frame.y(point.error));
+    if (point.standard) svg.circle(frame.x(point.time), frame.y(point.error), kRing, look.colour, false);
   }
 }
 
@@ -94,11 +107,18 @@ void drawLevel(Svg& svg, const Frame& frame, const ErrorPlot& plot) {
   svg.text(kLeft + kPlotWidth - kMargin, y - kAbove, plot.levelName, "end");
 }
 
-void drawLegendEntry(Svg& svg, double y, const std::string& words, const std::string& colour, bool ring) {
+template <class Mark>
+void drawLegendEntry(Svg& svg, double y, const std::string& words, Mark&& mark) {
   constexpr double kBase = 4;
   const double x = kLeft + kPlotWidth + 2 * kMargin;
-  svg.circle(x, y, ring ? kRing : kDot, colour, !ring);
+  mark(x, y);
   svg.text(x + 2 * kMargin, y + kBase, words);
+}
+
+double widthOf(const ErrorPlot& plot) {
+  std::size_t longest = 0;
+  for (const ErrorPlot::Line& line : plot.lines) longest = std::max(longest, line.method.size());
+  return kLeft + kPlotWidth + std::max(kLegend, 5 * kMargin + kLetterWidth * double(longest));
 }
 
 }  // namespace
@@ -107,18 +127,20 @@ std::string svgOf(const ErrorPlot& plot) {
   const Frame frame(plot);
   const std::vector<std::string> notes = wrappedForSvg(plot.notes);
   const double bottom = kTop + std::max(kPlotHeight + 3 * kLine, kLine * double(plot.lines.size() + 2));
-  Svg svg(kWidth, bottom + kLine * double(notes.size() + 1));
+  Svg svg(widthOf(plot), bottom + kLine * double(notes.size() + 1));
   svg.text(kMargin, 2 * kMargin, plot.title);
   drawAxes(svg, frame, plot);
   if (plot.level > 0) drawLevel(svg, frame, plot);
   double y = kTop;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
-    const char* colour = kColours[i % kColours.size()];
-    drawLine(svg, frame, plot.lines[i], colour);
-    drawLegendEntry(svg, y, plot.lines[i].method, colour, false);
+    const Look look(i);
+    drawLine(svg, frame, plot.lines[i], look);
+    drawLegendEntry(svg, y, plot.lines[i].method, [&](double x, double at) { look.draw(svg, x, at); });
     y += kLine;
   }
-  if (!plot.ring.empty()) drawLegendEntry(svg, y, plot.ring, "#000000", true);
+  if (!plot.ring.empty())
+    drawLegendEntry(svg, y, plot.ring,
+                    [&](double x, double at) { svg.circle(x, at, kRing, "#000000", false); });
   y = bottom;
   for (const std::string& note : notes) svg.text(kMargin, y += kLine, note);
   return svg.finish();
