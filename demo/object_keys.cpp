@@ -254,12 +254,38 @@ Key<SceneObject> anchor() {
       "anchor",
       "[x, y, z], not zero",
       "",
-      "the flat side that faces this way is tied to the world",
+      "the flat side that faces this way, in the world as the object stands in it, is tied to it",
       [](SceneObject& target, const Json& json, const Place& place) {
         target.anchor = readVector(json, limits::kPosition, place);
         if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
       },
       [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }}
+      .only("shapes and meshes", isCookedHere);
+}
+
+Eigen::AlignedBox3d readBox(const Json& json, const Place& place) {
+  requireList(json, place);
+  if (json.size() != 2)
+    place.refuse("has " + std::to_string(json.size()) + " corners", "must have 2: [[x, y, z], [x, y, z]]");
+  Eigen::AlignedBox3d box(readVector(json[0], kMeshPlace, place.child("0")));
+  return box.extend(readVector(json[1], kMeshPlace, place.child("1")));
+}
+
+Key<SceneObject> anchorBox() {
+  return Key<SceneObject>{
+      "anchor_box",
+      "[[x, y, z], [x, y, z]]",
+      "m",
+      "two corners of a box, in the mesh's own coordinates times `scale`, or the shape's about its centre: "
+      "outer faces of cells whose centroid is in it are tied, too",
+      [](SceneObject& target, const Json& json, const Place& place) {
+        target.anchorBox = readBox(json, place);
+      },
+      [](const SceneObject& o) {
+        return o.anchorBox ? "[" + shown(Eigen::Vector3d(o.anchorBox->min())) + ", " +
+                                 shown(Eigen::Vector3d(o.anchorBox->max())) + "]"
+                           : std::string("none");
+      }}
       .only("shapes and meshes", isCookedHere);
 }
 
@@ -311,6 +337,7 @@ const Table<SceneObject>& objectKeys() {
                               "share of the solid that the spheres fill when `radius` is 0")
               .only("shapes and meshes", isCookedHere),
           anchor(),
+          anchorBox(),
           number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                               "decay rate of the deformation; the rigid motion is not damped"),
           word<SceneObject, Regime>(
