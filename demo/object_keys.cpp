@@ -271,8 +271,13 @@ Eigen::AlignedBox3d readBox(const Json& json, const Place& place) {
   return box.extend(readVector(json[1], kMeshPlace, place.child("1")));
 }
 
+std::string shownBox(const Eigen::AlignedBox3d& box) {
+  return "[" + shown(Eigen::Vector3d(box.min())) + ", " + shown(Eigen::Vector3d(box.max())) + "]";
+}
+
+// Not listed where there is none: references and settings of scenes without one stay those of the scenes.
 Key<SceneObject> anchorBox() {
-  return Key<SceneObject>{
+  Key<SceneObject> key = {
       "anchor_box",
       "[[x, y, z], [x, y, z]]",
       "m",
@@ -281,12 +286,11 @@ Key<SceneObject> anchorBox() {
       [](SceneObject& target, const Json& json, const Place& place) {
         target.anchorBox = readBox(json, place);
       },
-      [](const SceneObject& o) {
-        return o.anchorBox ? "[" + shown(Eigen::Vector3d(o.anchorBox->min())) + ", " +
-                                 shown(Eigen::Vector3d(o.anchorBox->max())) + "]"
-                           : std::string("none");
-      }}
-      .only("shapes and meshes", isCookedHere);
+      [](const SceneObject& o) { return o.anchorBox ? shownBox(*o.anchorBox) : std::string("none"); }};
+  key.listNested = [](std::vector<std::string>& lines, const SceneObject& target, const std::string& path) {
+    if (target.anchorBox) lines.push_back(path + " = " + shownBox(*target.anchorBox));
+  };
+  return std::move(key).only("shapes and meshes", isCookedHere);
 }
 
 }  // namespace
