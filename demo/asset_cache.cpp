@@ -61,8 +61,8 @@ class NameHash {
 
 void addOptions(NameHash& hash, const CookOptions& options) {
   // All of them: a new one does not compile here.
-  const auto& [elements, radius, fill, seed, maxOverlap, maxIterations, minFaceArea, anchor, anchorBand] =
-      options;
+  const auto& [elements, radius, fill, seed, maxOverlap, maxIterations, minFaceArea, anchor, anchorBand,
+               regions] = options;
   hash.add(std::uint64_t(elements));
   for (const double number : {radius, fill, maxOverlap, minFaceArea, anchorBand}) hash.add(number);
   hash.add(seed);
@@ -70,6 +70,7 @@ void addOptions(NameHash& hash, const CookOptions& options) {
   hash.add(anchor.has_value());
   if (anchor)
     for (const double x : *anchor) hash.add(x);
+  hash.addList(regions);
 }
 
 void addMesh(NameHash& hash, const SurfaceMesh& mesh) {

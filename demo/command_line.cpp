@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "demo/info.h"
@@ -26,7 +28,7 @@ constexpr const char* kExitCodes =
 // What CLI11 fills in before it is checked.
 struct Raw {
   std::string size = "1280x720";
-  std::vector<std::string> sets, sweeps, reported;
+  std::vector<std::string> sets, sweeps, reported, anchorBoxes;
   std::optional<std::string> frames, seed, anchor, error;
   std::optional<int> cases;
   std::filesystem::path cache;
@@ -59,20 +61,36 @@ void addPath(CLI::App& app, const std::string& option, std::filesystem::path& pa
 }
 
 // "x,y,z"
-Eigen::Vector3d parseDirection(const std::string& option, const std::string& text) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+// Numbers between commas, as many as `numbers`; false if it is anything else.
+bool parseNumbers(const std::string& text, std::span<double> numbers) {
   const char* at = text.data();
   const char* const end = at + text.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [next, error] = std::from_chars(at, end, direction[axis]);
-    const bool isLast = axis == 2;
-    if (error != std::errc() || (isLast ? next != end : next == end || *next != ','))
-      throw InputError(option, text, "is no direction, must be x,y,z");
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const auto [next, error] = std::from_chars(at, end, numbers[n]);
+    const bool isLast = n + 1 == numbers.size();
+    if (error != std::errc() || (isLast ? next != end : next == end || *next != ',')) return false;
     at = next + 1;
   }
+  return true;
+}
+
+Eigen::Vector3d parseDirection(const std::string& option, const std::string& text) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  if (!parseNumbers(text, {direction.data(), 3}))
+    throw InputError(option, text, "is no direction, must be x,y,z");
   if (!(direction.norm() > kShortestDirection) || !std::isfinite(direction.norm()))
     throw InputError(option, text, "has no direction, must be x,y,z, not 0,0,0");
   return direction;
+}
+
+// Of two opposite corners, whichever come first.
+Eigen::AlignedBox3d parseBox(const std::string& option, const std::string& text) {
+  std::array<double, 6> numbers{};
+  if (!parseNumbers(text, numbers) ||
+      !std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }))
+    throw InputError(option, text, "is no box, must be x,y,z,x,y,z, two opposite corners in metres");
+  Eigen::AlignedBox3d box(Eigen::Vector3d(numbers[0], numbers[1], numbers[2]));
+  return box.extend(Eigen::Vector3d(numbers[3], numbers[4], numbers[5]));
 }
 
 void addSceneOptions(CLI::App& app, CommandLine& line, Raw& raw, bool withScene = true) {
@@ -109,6 +127,10 @@ void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
       "--repair", options.repair,
       "mend the surface first: weld corners, turn triangles, fill holes, unite parts that overlap");
   cook->add_option("--anchor", raw.anchor, "x,y,z: the flat side that faces this way is tied to the world");
+  cook->add_option(
+          "--anchor-box", raw.anchorBoxes,
+          "x,y,z,x,y,z: two corners [m]; outer faces in this box are tied to the world, may be repeated")
+      ->allow_extra_args(false);
   cook->add_option("--seed", options.seed, "of the packing, default 1")->check(CLI::NonNegativeNumber);
 }
 
@@ -351,6 +373,8 @@ CommandLine parseCommandLine(int argc, char** argv) {
   if (line.command == CommandLine::Command::Cook) {
     if (line.cook.mesh.empty()) throw InputError("MESH", "", "is empty, must be a path");
     if (raw.anchor) line.cook.anchor = parseDirection("--anchor", *raw.anchor);
+    for (const std::string& box : raw.anchorBoxes)
+      line.cook.anchorBoxes.push_back(parseBox("--anchor-box", box));
     return line;
   }
   if (line.command == CommandLine::Command::BenchPaper) {

@@ -54,6 +54,7 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
   CookOptions options;
   options.seed = given.seed;
   options.anchorDirection = given.anchor;
+  options.anchorRegions = given.anchorBoxes;
   options.anchorBand = anchorBandOf(mesh);
   if (given.radius) options.radius = *given.radius;
   if (given.elements) {

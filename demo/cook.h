@@ -1,11 +1,12 @@
 // `rubble cook`: a mesh file into an asset.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <vector>
 
 namespace rubble::demo {
 
@@ -17,6 +18,8 @@ struct CookFileOptions {
   std::optional<double> radius;           ///< [m]
   double scale = 1;                       ///< of one unit of the mesh [m]
   std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
+  /// What has its centroid in one of these is tied, too; in the mesh's coordinates, scaled [m].
+  std::vector<Eigen::AlignedBox3d> anchorBoxes;
   std::uint64_t seed = 1;
   bool repair = false;  ///< the mesh, before it is cooked
 };

@@ -1,8 +1,11 @@
 #include "demo/cooked_objects.h"
 
+#include <Eigen/Geometry>
 #include <map>
+#include <numbers>
 #include <string>
 
+#include "demo/keys.h"
 #include "demo/primitives.h"
 #include "demo/refuse_at.h"
 #include "demo/solid.h"
@@ -58,13 +61,33 @@ std::vector<Uncooked> uncookedObjects(const Scene& scene, const LogFunction& log
   return all;
 }
 
+// The world's direction in the object's axes; the same bits where it is not turned.
+std::optional<Eigen::Vector3d> ownAnchor(const SceneObject& object) {
+  const double degrees = object.rotationDegrees.norm();
+  if (!object.anchor || !(degrees > 0)) return object.anchor;
+  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, object.rotationDegrees / degrees);
+  return Eigen::Vector3d(turn.inverse() * *object.anchor);
+}
+
+// None is an error, for what is to be tied would fall; else how many is said.
+void tellAnchors(const SceneObject& object, const Asset& asset, const LogFunction& log) {
+  if (!object.anchor && !object.anchorBox) return;
+  if (asset.anchors.empty())
+    throw Error("no flat side faces its anchor, " + shown(*object.anchor) +
+                ": it must be the direction of one, in the world as the object stands in it");
+  if (log)
+    log(LogLevel::Info, std::to_string(asset.elementCount()) + " elements, " +
+                            std::to_string(asset.anchors.size()) + " anchors tie them to the world");
+}
+
 CookOptions cookOptions(const SceneObject& object, const SurfaceMesh& mesh, std::uint64_t seed) {
   CookOptions options;
   options.elements = object.elements;
   options.radius = object.radius;
   options.fill = object.fill;
   options.seed = seed;
-  options.anchorDirection = object.anchor;
+  options.anchorDirection = ownAnchor(object);
+  if (object.anchorBox) options.anchorRegions = {*object.anchorBox};
   if (!object.mesh.empty()) options.anchorBand = anchorBandOf(mesh);
   return options;
 }
@@ -122,6 +145,7 @@ Assets cookObjects(const Scene& scene, const ProgressFunction& progress, const L
       if (!asset)
         asset =
             std::make_shared<const Asset>(keptOrCooked(object, *mesh, options, name, cache, progress, log));
+      tellAnchors(object, *asset, log);
       assets.push_back(asset);
     });
   }

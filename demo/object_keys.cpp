@@ -254,13 +254,43 @@ Key<SceneObject> anchor() {
       "anchor",
       "[x, y, z], not zero",
       "",
-      "the flat side that faces this way is tied to the world",
+      "the flat side that faces this way, in the world as the object stands in it, is tied to it",
       [](SceneObject& target, const Json& json, const Place& place) {
         target.anchor = readVector(json, limits::kPosition, place);
         if (target.anchor->norm() < 1e-9) place.refuse("has no direction", "must not be [0, 0, 0]");
       },
       [](const SceneObject& o) { return o.anchor ? shown(*o.anchor) : std::string("not tied"); }}
       .only("shapes and meshes", isCookedHere);
+}
+
+Eigen::AlignedBox3d readBox(const Json& json, const Place& place) {
+  requireList(json, place);
+  if (json.size() != 2)
+    place.refuse("has " + std::to_string(json.size()) + " corners", "must have 2: [[x, y, z], [x, y, z]]");
+  Eigen::AlignedBox3d box(readVector(json[0], kMeshPlace, place.child("0")));
+  return box.extend(readVector(json[1], kMeshPlace, place.child("1")));
+}
+
+std::string shownBox(const Eigen::AlignedBox3d& box) {
+  return "[" + shown(Eigen::Vector3d(box.min())) + ", " + shown(Eigen::Vector3d(box.max())) + "]";
+}
+
+// Not listed where there is none: references and settings of scenes without one stay those of the scenes.
+Key<SceneObject> anchorBox() {
+  Key<SceneObject> key = {
+      "anchor_box",
+      "[[x, y, z], [x, y, z]]",
+      "m",
+      "two corners of a box, in the mesh's own coordinates times `scale`, or the shape's about its centre: "
+      "outer faces of cells whose centroid is in it are tied, too",
+      [](SceneObject& target, const Json& json, const Place& place) {
+        target.anchorBox = readBox(json, place);
+      },
+      [](const SceneObject& o) { return o.anchorBox ? shownBox(*o.anchorBox) : std::string("none"); }};
+  key.listNested = [](std::vector<std::string>& lines, const SceneObject& target, const std::string& path) {
+    if (target.anchorBox) lines.push_back(path + " = " + shownBox(*target.anchorBox));
+  };
+  return std::move(key).only("shapes and meshes", isCookedHere);
 }
 
 }  // namespace
@@ -311,6 +341,7 @@ const Table<SceneObject>& objectKeys() {
                               "share of the solid that the spheres fill when `radius` is 0")
               .only("shapes and meshes", isCookedHere),
           anchor(),
+          anchorBox(),
           number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                               "decay rate of the deformation; the rigid motion is not damped"),
           word<SceneObject, Regime>(

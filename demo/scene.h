@@ -41,8 +41,10 @@ struct SceneObject : Placement {
   std::uint32_t elements = 2048;
   double radius = 0;  ///< of the elements [m]; 0: chosen so that the spheres fill `fill` of the solid
   double fill = 0.48;
-  std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
-  double massDamping = 0;                 ///< of the deformation [1/s]
+  std::optional<Eigen::Vector3d> anchor;  ///< the world's direction of the side that is tied to it
+  /// What has its centroid in this is tied, too; in the mesh's coordinates, or the shape's about its centre.
+  std::optional<Eigen::AlignedBox3d> anchorBox;
+  double massDamping = 0;  ///< of the deformation [1/s]
   Regime regime = Regime::Elements;
   Material material;
   Model model;

@@ -133,7 +133,7 @@ World::~World() {
 
 void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> asset) {
   DestructibleBodyDef def;
-  def.anchored = object.asset.empty() ? object.anchor.has_value() : !asset->anchors.empty();
+  def.anchored = object.asset.empty() ? object.anchor || object.anchorBox : !asset->anchors.empty();
   def.transform = placed(object, *asset);
   def.asset = std::move(asset);
   def.material = object.material;

@@ -60,6 +60,10 @@ void checkOptions(const CookOptions& options) {
     const double length = options.anchorDirection->norm();
     require(length > 0 && std::isfinite(length), "length of anchorDirection", length, "above 0 and finite");
   }
+  for (const Eigen::AlignedBox3d& box : options.anchorRegions)
+    if (!box.min().allFinite() || !box.max().allFinite() || box.isEmpty())
+      throw Error(
+          "anchorRegions has a box that is empty or not finite; allowed: two corners, the lesser first");
 }
 
 struct CutElements {
@@ -145,6 +149,13 @@ std::vector<CellMoments> measureCells(const RestrictedVoronoi& diagram) {
   return cells;
 }
 
+// What is to be tied, in the asset's frame.
+AnchorWish anchorWish(const CookOptions& options, const Eigen::Vector3d& origin) {
+  AnchorWish wish{options.anchorDirection, options.anchorBand, options.anchorRegions, origin};
+  for (Eigen::AlignedBox3d& box : wish.regions) box.translate(-origin);
+  return wish;
+}
+
 // Mass, centre and inertia of all elements are the solid's, or the log says by how much they are not.
 void placeElements(const CheckedMesh& solid, const RestrictedVoronoi& diagram,
                    std::vector<Eigen::Vector3d> places, const LogFunction& log, Asset& asset) {
@@ -191,8 +202,7 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   placeElements(solid, diagram, std::move(elements.centres), log, asset);
   const double spacing = asset.spacing();
   asset.springs = findSprings(diagram, pieces, options.minFaceArea * spacing * spacing);
-  if (options.anchorDirection)
-    asset.anchors = findAnchors(solid, diagram, pieces, *options.anchorDirection, options.anchorBand);
+  asset.anchors = findAnchors(solid, diagram, pieces, anchorWish(options, origin));
   checkTies(solid, asset, log);
   buildCellMeshes(solid, SurfaceLook(mesh, solid), diagram, asset);
   asset.validate();

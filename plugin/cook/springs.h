@@ -1,7 +1,8 @@
 // Pore springs and anchors from the clipped cells: paper 3.1.1, step 6.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "cook/checked_mesh.h"
@@ -17,9 +18,18 @@ namespace rubble::cooking {
 std::vector<AssetSpring> findSprings(const RestrictedVoronoi& diagram, const SitePieces& pieces,
                                      double leastArea);
 
-/// The part of each cell's outer faces that points along `direction` and lies within `band` [m] of the
-/// solid's furthest point in it. `direction` need not be of unit length.
+/// What is to be tied, in the frame of the diagram.
+struct AnchorWish {
+  std::optional<Eigen::Vector3d> direction;  ///< of any length; none: regions only
+  double band = 0;                           ///< from the solid's furthest point in `direction` [m]
+  std::vector<Eigen::AlignedBox3d> regions;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame in the mesh's coordinates, for messages
+};
+
+/// Of each cell one anchor for the outer surface that points along the direction and lies within the band,
+/// and one for each flat side of what else is outer surface, polygons within 10 degrees of its first, whose
+/// centroid lies in a region. Throws rubble::Error naming a region that ties nothing.
 std::vector<AssetAnchor> findAnchors(const CheckedMesh& mesh, const RestrictedVoronoi& diagram,
-                                     const SitePieces& pieces, const Eigen::Vector3d& direction, double band);
+                                     const SitePieces& pieces, const AnchorWish& wish);
 
 }  // namespace rubble::cooking

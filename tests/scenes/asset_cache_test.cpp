@@ -70,6 +70,54 @@ TEST_F(CookedObjects, EqualOnesAreOne) {
   EXPECT_EQ(assets[2]->elementCount(), 61u);
 }
 
+double tiedArea(const Asset& asset) {
+  double area = 0;
+  for (const AssetAnchor& anchor : asset.anchors) area += anchor.area;
+  return area;
+}
+
+// Lying on its side, its own -x is the world's -y: the side of 1 x 0.5 m there, and not the bottom of its
+// mesh.
+TEST_F(CookedObjects, AnAnchorsDirectionIsTheWorlds) {
+  m_cache.clear();
+  const demo::Assets assets = cooked(R"({"objects": [{"size": [2, 1, 0.5], "elements": 60,
+      "anchor": [0, -1, 0], "rotation_degrees": [0, 0, 90]}]})");
+  ASSERT_FALSE(assets[0]->anchors.empty());
+  for (const AssetAnchor& anchor : assets[0]->anchors) EXPECT_NEAR(anchor.point.x(), -1, 1e-9);
+  EXPECT_NEAR(tiedArea(*assets[0]), 0.5, 1e-9);
+}
+
+// The box is the shape's own, whichever way it is turned; the direction's side is 1 x 0.5 m, the box's 2 x
+// 0.5.
+TEST_F(CookedObjects, ABoxOfAnchorsTurnsWithItsObject) {
+  m_cache.clear();
+  std::vector<std::string> told;
+  const demo::Assets assets = cooked(R"({"objects": [{"size": [2, 1, 0.5], "elements": 60,
+      "anchor": [0, -1, 0], "anchor_box": [[2, 0.51, 1], [-2, 0.49, -1]], "rotation_degrees": [0, 0, 90]}]})",
+                                     [&](LogLevel, const std::string& line) { told.push_back(line); });
+  EXPECT_NEAR(tiedArea(*assets[0]), 0.5 + 1, 1e-9);
+  const std::string count = std::to_string(assets[0]->anchors.size()) + " anchors";
+  EXPECT_TRUE(std::ranges::any_of(told, [&](const std::string& s) { return s.find(count) != s.npos; }));
+}
+
+TEST_F(CookedObjects, AnchorsThatAreNotFoundAreAnError) {
+  m_cache.clear();
+  const auto refusal = [&](const std::string& keys) -> std::string {
+    try {
+      cooked(R"({"objects": [{"size": [2, 1, 0.5], "elements": 60, )" + keys + "}]}");
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(R"("anchor": [1, -1, 0])").find("no flat side faces its anchor"), std::string::npos);
+  const std::string box = refusal(R"("anchor_box": [[3, 0, 0], [4, 1, 1]])");
+  EXPECT_NE(box.find("in the anchor box (3, 0, 0) to (4, 1, 1) m; the mesh is from (-1, -0.5, -0.25) to "
+                     "(1, 0.5, 0.25) m"),
+            std::string::npos)
+      << box;
+}
+
 TEST_F(CookedObjects, OfDamagedFilesAreCookedAnewWithAWarning) {
   const std::string one = R"({"objects": [{"size": [1, 1, 0.5], "elements": 60}]})";
   const std::string other = R"({"objects": [{"size": [1, 1, 0.5], "elements": 50}]})";
@@ -219,6 +267,12 @@ TEST(CookName, IsAnotherForEveryChange) {
       [](CookOptions& o) { o.anchorDirection = Eigen::Vector3d::Zero(); },
       [](CookOptions& o) { o.anchorDirection = Eigen::Vector3d::UnitZ(); },
       [](CookOptions& o) { o.anchorBand *= 2; },
+      [](CookOptions& o) {
+        o.anchorRegions = {{Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
+      },
+      [](CookOptions& o) {
+        o.anchorRegions = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 1, 2)}};
+      },
   };
   std::set<std::string> names = {name};
   for (const ChangeMesh change : meshes) {

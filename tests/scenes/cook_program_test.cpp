@@ -97,6 +97,27 @@ TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
+// In metres, of the mesh as scaled: the faces y = 0 and y = 1 of 2 x 0.5, each by a box of its own.
+TEST_F(CookProgram, TiesWhatIsInBoxes) {
+  m_folder.write("box.obj", kBox);
+  const std::string common = "cook box.obj -o box.rubble-asset --elements 100 ";
+  const ChildResult result =
+      run(common + "--anchor-box -9,-0.01,-9,9,0.01,9 --anchor-box 9,1.01,9,-9,0.99,-9");
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  double tied = 0;
+  for (const AssetAnchor& anchor : cooked("box.rubble-asset").anchors) tied += anchor.area;
+  EXPECT_NEAR(tied, 2, 1e-9);
+  EXPECT_NE(result.out.find(" anchors, radius "), std::string::npos);
+}
+
+TEST_F(CookProgram, RefusesBoxesThatTieNothing) {
+  m_folder.write("box.obj", kBox);
+  expectRefused("box.obj -o a.rubble-asset --elements 60 --anchor-box 7,7,7,8,8,8",
+                "in the anchor box (7, 7, 7) to (8, 8, 8) m; the mesh is from ");
+  for (const char* box : {"7,7,7,8,8", "0,0,0,1,1,nan", "here", "''"})
+    expectRefused(std::string("box.obj -o a.rubble-asset --anchor-box ") + box, "--anchor-box");
+}
+
 // The counts are those of the asset's own list, and of its cells where it has none.
 TEST_F(CookProgram, InfoTellsTheMaterials) {
   std::string painted = kBox;

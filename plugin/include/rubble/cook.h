@@ -2,7 +2,7 @@
 // GPL); an application that loads cooked assets does not.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -64,6 +64,10 @@ struct CookOptions {
   /// anchorBand of the solid's furthest point in it is tied to the world. Unset: no anchors.
   std::optional<Eigen::Vector3d> anchorDirection;
   double anchorBand = 1e-6;  ///< [m]
+  /// Boxes in the mesh's coordinates [m]: every flat side of a cell's outer surface whose centroid lies in
+  /// one of them is tied likewise, whichever way it faces. Beside anchorDirection, what either finds is tied,
+  /// once. A box that finds nothing is refused; Asset::anchors tells how many were found.
+  std::vector<Eigen::AlignedBox3d> anchorRegions = {};
 };
 
 /// Cooks a mesh. The outer faces of the cells keep its normals, texture coordinates and materials; where it

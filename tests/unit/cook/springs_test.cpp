@@ -123,5 +123,81 @@ TEST(Anchors, TakeTheFurthestSurfaceOfAnyShape) {
   EXPECT_NEAR(area, 1.0, 1e-12);
 }
 
+double areaOf(const Asset& asset) {
+  double area = 0;
+  for (const AssetAnchor& anchor : asset.anchors) area += anchor.area;
+  return area;
+}
+
+// All of the side x = 1, whatever cells it is cut into: half of its 1 m^2 for the centroids above the middle.
+TEST(Anchors, AreInARegion) {
+  CookOptions options = optionsFor(200);
+  options.anchorRegions = {{Eigen::Vector3d(0.999, -2, -2), Eigen::Vector3d(1.001, 2, 2)}};
+  const SurfaceMesh cube = boxMesh({1, 1, 1}, {0.5, 0, 0});
+  const Asset side = cookStrictly(cube, options);
+  EXPECT_NEAR(areaOf(side), 1, 1e-12);
+  for (const AssetAnchor& anchor : side.anchors) EXPECT_NEAR(anchor.point.x(), 1, 1e-12);
+
+  options.anchorRegions[0].min().y() = 0;
+  const Asset half = cookStrictly(cube, options);
+  EXPECT_NEAR(areaOf(half), 0.5, 0.1);
+  for (const AssetAnchor& anchor : half.anchors) EXPECT_GE(anchor.point.y(), 0);
+}
+
+// A box about the whole cube ties each of its six sides, edges and corners by two and three anchors a cell.
+TEST(Anchors, OfARegionHaveOneForEachSideOfACell) {
+  CookOptions options = optionsFor(64);
+  options.anchorRegions = {{Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1)}};
+  const Asset asset = cookStrictly(boxMesh({1, 1, 1}), options);
+  EXPECT_NEAR(areaOf(asset), 6, 1e-12);
+  for (const AssetAnchor& anchor : asset.anchors)
+    EXPECT_NEAR(anchor.point.cwiseAbs().maxCoeff(), 0.5, 1e-12) << anchor.point.transpose();
+}
+
+TEST(Anchors, ByDirectionAndByRegionAreTheirUnionOnce) {
+  CookOptions options = optionsFor(100);
+  options.anchorDirection = Eigen::Vector3d(0, -1, 0);
+  const Asset down = cookStrictly(boxMesh({1, 1, 1}), options);
+  options.anchorRegions = {{Eigen::Vector3d(-1, -0.501, -1), Eigen::Vector3d(1, -0.499, 1)}};
+  const Asset twice = cookStrictly(boxMesh({1, 1, 1}), options);
+  ASSERT_EQ(twice.anchors.size(), down.anchors.size());
+  for (std::size_t a = 0; a < down.anchors.size(); ++a) {
+    EXPECT_EQ(twice.anchors[a].element, down.anchors[a].element);
+    EXPECT_EQ(twice.anchors[a].area, down.anchors[a].area);
+    EXPECT_EQ(twice.anchors[a].point, down.anchors[a].point);
+  }
+  options.anchorRegions.push_back({Eigen::Vector3d(-1, 0.499, -1), Eigen::Vector3d(1, 0.501, 1)});
+  EXPECT_NEAR(areaOf(cookStrictly(boxMesh({1, 1, 1}), options)), 2, 1e-12);
+}
+
+// The region is the mesh's, where the asset has an origin of its own, too.
+TEST(Anchors, OfARegionAreFoundFarFromTheOrigin) {
+  const Eigen::Vector3d far(500'000, 0, 6'000'000);
+  CookOptions options = optionsFor(60);
+  options.anchorRegions = {{far + Eigen::Vector3d(-1, -0.6, -1), far + Eigen::Vector3d(1, -0.4, 1)}};
+  const Asset asset = cookStrictly(boxMesh({1, 1, 1}, far), options);
+  ASSERT_GT(asset.origin.norm(), 1e6);
+  EXPECT_GE(areaOf(asset), 1 - 1e-9);
+  options.anchorRegions = {{Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1)}};
+  EXPECT_THROW(cookStrictly(boxMesh({1, 1, 1}, far), options), Error);
+}
+
+TEST(Anchors, OfEachRegionMustBeFound) {
+  CookOptions options = optionsFor(20);
+  options.anchorDirection = Eigen::Vector3d(0, -1, 0);
+  options.anchorRegions = {{Eigen::Vector3d(2, 2, 2), Eigen::Vector3d(3, 3, 3)}};
+  try {
+    cookStrictly(boxMesh({1, 1, 1}), options);
+    ADD_FAILURE() << "was cooked";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "no outer face has its centroid in the anchor box (2, 2, 2) to (3, 3, 3) m; the mesh is from "
+        "(-0.5, -0.5, -0.5) to (0.5, 0.5, 0.5) m");
+  }
+  options.anchorRegions = {Eigen::AlignedBox3d()};
+  EXPECT_THROW(cookStrictly(boxMesh({1, 1, 1}), options), Error);
+}
+
 }  // namespace
 }  // namespace rubble::test
