@@ -14,9 +14,9 @@ namespace {
 // Lengths in pixels of the SVG.
 constexpr double kLeft = 70, kTop = 64;  // of the plot's corner
 constexpr double kPlotWidth = 480, kPlotHeight = 340;
-constexpr double kLegend = 310;  // right of the plot, at least
+constexpr double kLegend = 310;       // right of the plot, at least
 constexpr double kLetterWidth = 6.5;  // mean width
-constexpr double kLine = 16;     // of text
+constexpr double kLine = 16;          // of text
 constexpr double kDot = 3.5, kRing = 7;
 constexpr double kMargin = 10;
 
