@@ -152,7 +152,7 @@ std::string sizeSvg(std::span<const SizeRun> runs) {
   ErrorPlot plot{.title = "What a blow leaves of the scene wall, by the size of its elements",
                  .timeAxis = "h [mm], cube root of an element's volume",
                  .errorAxis = "share",
-                 .lines = {{"exit speed / 10 m/s", {}}, {"crushed / the wall's mass", {}}},
+                 .lines = {{"exit speed / 10 m/s", {}}, {"crushed / 192 kg, the wall", {}}},
                  .notes = {"Means of the packings of each size.",
                            "On " + machineName() + ", commit " + commitName() + "."}};
   plot.ring.clear();

@@ -33,7 +33,8 @@ std::string stabilityNotes(std::span<const StabilityResult> results) {
          "number that is not finite, an element faster than all energy makes it, or held at the end of a "
          "tick " +
          rounded(100 * stability::kEnergyTolerance) +
-         " % more energy than was put in. Stock Bullet has a rigid box of the same size, mass, friction and "
+         " % more energy than was put in (while something presses the elements: they by their own books). "
+         "Stock Bullet has a rigid box of the same size, mass, friction and "
          "restitution in place of the body, the same ticks and the same bar; a body "
          "that the application spoiled itself is held against neither.\n\nCommit " +
          commitName() + ", " + machineName() + ".\n" + brokenPromises(results);

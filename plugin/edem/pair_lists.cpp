@@ -8,7 +8,7 @@
 namespace rubble::edem {
 namespace {
 
-// The pair's place in Body::range, or kNoPair for two elements that are free of each other.
+// The pair's place in BodyState::range, or kNoPair for two elements that are free of each other.
 template <class Real>
 std::uint32_t pairOf(const Body<Real>& body, std::uint32_t i, std::uint32_t j) {
   const auto begin = body.constants->pairs.begin() + body.constants->pairOffsets[i],

@@ -15,7 +15,7 @@ namespace rubble::edem {
 struct PairEntry {
   std::uint32_t first;    ///< in the first body
   std::uint32_t second;   ///< in the second body
-  std::uint32_t pair;     ///< into Body::range, or kNoPair
+  std::uint32_t pair;     ///< into BodyState::range, or kNoPair
   bool touching = false;  ///< at the last instant; the pair then has a memory
 };
 

@@ -164,10 +164,10 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
     if (distance < near) visit(i, x, distance);
   };
   const Vec3<double> low = box.min() - body.state.origin, high = box.max() - body.state.origin;
-  const bool few = !sleeping && own.grid.cellsIn(low, high) > double(body.work.awake.size());
-  if (few) {
+  const double gridCells = own.grid.cellsIn(low, high);
+  if (!sleeping && gridCells > double(body.work.awake.size())) {
     for (const std::uint32_t i : body.work.awake) consider(i);
-  } else if (own.grid.cellsIn(low, high) > double(body.elementCount())) {
+  } else if (gridCells > double(body.elementCount())) {
     for (std::uint32_t i = 0; i < body.elementCount(); ++i) consider(i);
   } else {
     own.grid.visitBox(low, high, consider);

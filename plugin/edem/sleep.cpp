@@ -239,9 +239,9 @@ void putToSleep(World<Real>& w, double dt) {
   });
   for (std::size_t b = 0; b < fell.size(); ++b) {
     if (!fell[b]) continue;
-    beginSubstep(w.bodies[b]->state,
-                 w.bodies[b]->work);  // for the last time of what sleeps now: where it is, without forces
-    recount(*w.bodies[b]);
+    Body<Real>& body = *w.bodies[b];
+    beginSubstep(body.state, body.work);  // for the last time of what sleeps now: where it is, without forces
+    recount(body);
   }
 }
 

@@ -139,7 +139,6 @@ TEST_P(Character, StepsUpOnASlab) {
 // A ball of 50 kg at 15 m/s breaks the slab; then it walks over what lies there. It stays above the ground,
 // and is borne by elements somewhere on its way.
 TEST_P(Character, WalksOnTheRubble) {
-  if (GetParam() == Made::OfBullet) GTEST_SKIP();
   Course c(GetParam(), {24, 2, 10}, {btScalar(-0.6), 0, btScalar(-0.25)});
   btRigidBody* ball = c.w.add(50, c.w.ballShape, {0, btScalar(0.25), 0});
   ball->setLinearVelocity({0, -15, 0});
