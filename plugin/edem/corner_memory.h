@@ -13,6 +13,7 @@ struct CornerMemory {
   std::uint32_t body, element;  ///< id of the body
   double pressed;               ///< depth with force [m]
   double sunk;                  ///< depth without: it was first seen as deep, or gave way by it [m]
+  double yielded = 0;           ///< given way by in the last step [m]
 };
 
 /// Memories by their names.

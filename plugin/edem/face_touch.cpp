@@ -108,6 +108,7 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
                       core - m_nearest.distance,
                       1,
                       0,
+                      0,
                       {}});
 }
 
@@ -271,7 +272,7 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
   for (const FaceHit& hit : hits) {
     const double depth = hit.depth;
     const double speed = -hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
-    const double onset = steps.moved > 0 ? onsetShare(depth, speed, steps.moved) : 1;
+    const double onset = steps.moved > 0 ? onsetShare(depth + hit.yielded, speed, steps.moved) : 1;
     const double stiffness = hit.weight * law.stiffness;
     const double pushed = stiffness * depth * touchShare(depth, speed, steps.next, onset);
     const Eigen::Vector3d lever = hit.at.cross(hit.normal);

@@ -33,6 +33,7 @@ struct FaceHit {
   double depth = 0;                                   ///< > 0 [m]
   double weight = 0;                                  ///< stiffness over k_n
   double withheld = 0;                                ///< share of its force that is, by withhold()
+  double yielded = 0;                                 ///< that it gave way by in this step [m]
   CornerName corner;                                  ///< that of the rigid body's that is in the element
 };
 
@@ -75,7 +76,7 @@ class FaceTouch {
   /// Takes change(hit) [m] off the depth of every hit; those that have none left are hits no more.
   template <class Change>
   void lift(Change&& change) {
-    for (FaceHit& hit : m_hits) hit.depth -= change(std::as_const(hit));
+    for (FaceHit& hit : m_hits) hit.depth -= change(hit);
     std::erase_if(m_hits, [](const FaceHit& hit) { return !(hit.depth > 0); });
   }
   /// visit(weight, normal, lever [m]) for every exposed point that looks at a part that approach() noted,

@@ -17,6 +17,7 @@ struct FaceMemory {
   double deepest = 0;  ///< at the last instant, but for its corners; 0: out of it [m]
   double sunk = 0;     ///< depth without force: first seen as deep, or given way by [m]
   double area = 0;     ///< exposed at the last instant [m^2]
+  double yielded = 0;  ///< given way by in the last step [m]
 };
 
 /// An element and a rigid body that are near each other.

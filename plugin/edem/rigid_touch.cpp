@@ -143,6 +143,7 @@ double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& 
     lost += 0.5 * step.law.stiffness * hit.weight * (depth - way + left) * (depth - left);
   }
   memory.sunk += yielded;
+  memory.yielded = yielded;
   return lost;
 }
 
@@ -159,6 +160,7 @@ double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& 
   memory.area = exposed;
   memory.deepest = deepest;
   memory.sunk = std::min(memory.sunk, deepest);
+  if (step.moved > 0) memory.yielded = 0;  // looked at again, it gave way by what it gave
   return giveWay(hits, step, memory);
 }
 
@@ -171,13 +173,18 @@ double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> 
   double lost = sinkFaces(faces.hits(), body.state.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
   if (!corners.empty()) faces.withhold(step.law, fragment);
-  faces.lift([&](const FaceHit& hit) {
-    if (hit.corner == CornerName{}) return c.faces.sunk;
+  faces.lift([&](FaceHit& hit) {
+    if (hit.corner == CornerName{}) {
+      hit.yielded = c.faces.yielded;
+      return c.faces.sunk;
+    }
     CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
                                                     std::max(0.0, step.nearer(hit)));
     const ContactYield<double> yield = step.yieldOf(hit, corner.sunk);
     corner.sunk += yield.yielded;
     corner.pressed -= yield.yielded;
+    if (step.moved > 0) corner.yielded = yield.yielded;
+    hit.yielded = corner.yielded;
     lost += yield.lost;
     return corner.sunk;
   });
