@@ -30,7 +30,7 @@ void CornerHits::renew(std::uint32_t proxy, std::uint32_t candidate, std::span<c
   for (const FaceHit& hit : hits) {
     const CornerHit own{proxy, candidate, hit, hit.depth};
     const auto isThis = [&](const CornerHit& h) { return nameOf(h) == nameOf(own); };
-    if (std::any_of(m_hits.begin(), m_hits.end(), isThis)) continue;
+    if (hit.beyond > 0 || std::any_of(m_hits.begin(), m_hits.end(), isThis)) continue;
     m_hits.insert(std::upper_bound(m_hits.begin(), m_hits.end(), own, byCandidate), own);
   }
 }

@@ -1,6 +1,7 @@
 #include "edem/corner_memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rubble::edem {
@@ -65,24 +66,36 @@ void CornerMemories::forget(std::uint32_t body) {
 }
 
 // A corner that slides from one cell into the next presses it as deep as it did, and by how much it has come
-// nearer in the last step.
-CornerMemory& CornerMemories::press(const CornerName& name, std::uint32_t body, std::uint32_t element,
-                                    double depth, double way, double nearer) {
+// nearer in the last step, but no deeper than it is in it and by no stiffer a spring.
+CornerMemory& CornerMemories::press(const CornerName& name, const CornerPress& press) {
   CornerMemory* now = m_now.find(name);
-  double sunk = depth - way;
-  const auto after = [&](const CornerMemory& last) {
-    return last.body == body && last.element == element ? last.sunk : depth - last.pressed - nearer;
-  };
   // Looked at again at one instant, it goes on from there.
-  if (now) {
-    sunk = after(*now);
-  } else if (const CornerMemory* last = m_before.find(name)) {
-    sunk = after(*last);
+  const CornerMemory* last = now ? now : m_before.find(name);
+  CornerMemory next{name, press.body, press.element, 0, press.depth - press.way};
+  next.stiffness = press.stiffness;
+  const bool slides = last && (last->body != press.body || last->element != press.element);
+  if (slides) {
+    const double wanted = std::max(0.0, last->pressed + 0.5 * (press.nearerLast + press.nearer));
+    const bool stiffer = press.stiffness > last->stiffness;
+    next.sunk = press.depth - (stiffer ? wanted * std::sqrt(last->stiffness / press.stiffness) : wanted);
+  } else if (last) {
+    next.sunk = last->sunk;
   }
-  sunk = std::clamp(sunk, 0.0, depth);
+  next.sunk = std::clamp(next.sunk, 0.0, press.depth);
+  next.pressed = press.depth - next.sunk;
+  if (slides && !now) {
+    // What leapfrog's half forces do on the way, less what the spring then holds.
+    const double before = last->pressed, after = next.pressed;
+    next.lost = 0.5 * (last->stiffness * before * (before + press.nearerLast) +
+                       press.stiffness * after * (press.nearer - after));
+  }
   if (!now) now = &m_now.add(name);
-  *now = {name, body, element, depth - sunk, sunk};
+  *now = next;
   return *now;
+}
+
+double CornerMemory::lostOutside(double moved) const {
+  return 0.5 * stiffness * pressed * std::max(0.0, pressed + moved * speed);
 }
 
 }  // namespace rubble::edem

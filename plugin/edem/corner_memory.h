@@ -14,6 +14,23 @@ struct CornerMemory {
   double pressed;               ///< depth with force [m]
   double sunk;                  ///< depth without: it was first seen as deep, or gave way by it [m]
   double yielded = 0;           ///< given way by in the last step [m]
+  double stiffness = 0;         ///< [N/m]
+  double speed = 0;             ///< at which it nears the element [m/s]
+  double lost = 0;              ///< by its spring where it came from another cell into this one [J]
+
+  /// What its spring loses that presses nothing any more after a step of `moved` [s]: what it held and what
+  /// it did on its way, if it has not left by itself [J].
+  double lostOutside(double moved) const;
+};
+
+/// How a corner is in an element.
+struct CornerPress {
+  std::uint32_t body, element;  ///< id of the body
+  double depth;                 ///< [m]
+  double way;                   ///< it has come less far in the last step [m]
+  double nearer;                ///< and nearer by this; less than 0: farther [m]
+  double nearerLast;            ///< the same of the element that it was in at the last instant [m]
+  double stiffness;             ///< [N/m]
 };
 
 /// Memories by their names.
@@ -39,10 +56,14 @@ class CornerMemories {
  public:
   /// Those of this instant become those of the last.
   void beginStep();
-  /// A corner is in an element of the body with the id `body` by `depth`, and has come nearer by `nearer` in
-  /// the last step; one that was in none has come less than `way` [m]. Valid until the next call.
-  CornerMemory& press(const CornerName& name, std::uint32_t body, std::uint32_t element, double depth,
-                      double way, double nearer);
+  /// A corner is in an element. Valid until the next call.
+  CornerMemory& press(const CornerName& name, const CornerPress& press);
+  /// Those of the last instant that are in no element at this one.
+  template <class Visit>
+  void visitGone(Visit&& visit) {
+    for (const CornerMemory& last : m_before.all())
+      if (!m_now.find(last.name)) visit(last);
+  }
   /// What they remember of a body.
   void forget(std::uint32_t body);
   /// Whether it was in that element at the last instant.
@@ -50,6 +71,8 @@ class CornerMemories {
     const CornerMemory* last = m_before.find(name);
     return last && last->body == body && last->element == element;
   }
+  /// At the last instant; null where it was in none.
+  const CornerMemory* lastOf(const CornerName& name) { return m_before.find(name); }
   /// At this instant.
   const std::vector<CornerMemory>& all() const { return m_now.all(); }
 

@@ -109,6 +109,7 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
                       1,
                       0,
                       0,
+                      0,
                       {}});
 }
 
@@ -202,7 +203,7 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
 
 bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                         const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack) {
-  const NearestFace face(cells, exposure, element, centre, radius, slack);
+  const NearestFace face(cells, exposure, element, centre, radius);
   const double depth = face.inside ? radius + face.distance : radius - face.distance;
   if (!(depth > 0) || !std::isfinite(face.distance)) return false;
   Eigen::Vector3d normal = -face.normal;
@@ -212,6 +213,7 @@ bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::u
   hit.at = face.at;
   hit.normal = normal;
   hit.depth = depth;
+  if (face.inside && face.beyond > slack) hit.beyond = face.beyond;
   return true;
 }
 
@@ -227,6 +229,7 @@ void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposu
     const Eigen::Vector3d c = pose.turn.transpose() * from;
     FaceHit hit;
     if (!ballHit(cells, exposure, element, c, radius, hit)) return;
+    if (hit.beyond > 0 && !corners) return;
     hit.weight = weight;
     if (corners) hit.corner = {near.index, corner};
     m_hits.push_back(hit);

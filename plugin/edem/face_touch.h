@@ -34,6 +34,7 @@ struct FaceHit {
   double weight = 0;                                  ///< stiffness over k_n
   double withheld = 0;                                ///< share of its force that is, by withhold()
   double yielded = 0;                                 ///< that it gave way by in this step [m]
+  double beyond = 0;                                  ///< of a corner: out of the cell by a covered face [m]
   CornerName corner;                                  ///< that of the rigid body's that is in the element
 };
 
@@ -65,7 +66,7 @@ class FaceTouch {
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
             bool balls);
   /// The hits of corners and edges of boxes and hulls, tips of cones and rims alone, at the nearest point of
-  /// the exposed faces.
+  /// the exposed faces; those beyond the cell's covered faces, too.
   void findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                    const ElementPose& pose);
   void add(const FaceHit& hit) { m_hits.push_back(hit); }
@@ -125,7 +126,8 @@ class FaceTouch {
                       const Exposure& exposure, std::uint32_t element);
   void findRimDeepest(const Rim& rim, double rounding, CornerName name, const CellFaces& cells,
                       const Exposure& exposure, std::uint32_t element);
-  // The hit of a ball, axes of the element, but for its weight.
+  // The hit of a ball, axes of the element, but for its weight. It is in the cell that is out of it by less
+  // than `slack` [m].
   static bool ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                       const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack = 0);
   void findBalls(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,

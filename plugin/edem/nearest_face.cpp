@@ -6,11 +6,14 @@
 
 namespace rubble::edem {
 NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                         const Eigen::Vector3d& centre, double radius, double slack) {
+                         const Eigen::Vector3d& centre, double radius) {
   const std::span<const CellFaces::Face> faces = cells.of(element);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const double beyond = exposure.faces[cells.firstFace[element] + f] ? 0 : slack;
-    inside = inside && faces[f].normal.dot(centre) <= faces[f].offset + beyond;
+    const double above = faces[f].normal.dot(centre) - faces[f].offset;
+    if (exposure.faces[cells.firstFace[element] + f])
+      inside = inside && above <= 0;
+    else
+      beyond = std::max(beyond, above);
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (!exposure.faces[cells.firstFace[element] + f]) continue;

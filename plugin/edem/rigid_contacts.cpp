@@ -290,9 +290,8 @@ void RigidContacts<Real>::findAllCorners(Bodies bodies, CornerHits& corners) {
     findCorners(*bodies[c.body], c.element, m_proxies[c.proxy], m_faces);
     const Body<Real>& body = *bodies[c.body];
     const double favour = kStays * std::sqrt(body.constants->cells->unit);
-    corners.add(c.proxy, placeOf(c), m_faces.hits(), [&](const FaceHit& hit) {
-      return hit.corner.edge != 0 && m_states[c.proxy].corners.wasIn(hit.corner, body.id, c.element) ? favour
-                                                                                                     : 0;
+    corners.add(c.proxy, placeOf(c), m_faces.hits(), favour, [&](const FaceHit& hit) {
+      return m_states[c.proxy].corners.wasIn(hit.corner, body.id, c.element);
     });
   }
   corners.settle();
@@ -412,8 +411,21 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     if (std::find(proxy.touched.begin(), proxy.touched.end(), body.id) == proxy.touched.end())
       proxy.touched.push_back(body.id);
   }
+  for (std::uint32_t p = 0; p < m_states.size(); ++p)
+    m_states[p].corners.visitGone([&](const CornerMemory& corner) {
+      if (isListed(p, corner, bodies)) slipped += corner.lostOutside(steps.moved);
+    });
   books.dissipated.add(-slipped, 0);
   for (RigidState& s : m_states) s.moved = false;
+}
+
+// Whether the element that a corner was in is still looked at: what left or sleeps has been booked.
+template <class Real>
+bool RigidContacts<Real>::isListed(std::uint32_t proxy, const CornerMemory& corner, Bodies bodies) const {
+  return std::any_of(m_contacts.begin(), m_contacts.end(), [&](const RigidContact& c) {
+    return c.proxy == proxy && c.element == corner.element && bodies[c.body]->id == corner.body &&
+           bodies[c.body]->state.alive[c.element];
+  });
 }
 
 template <class Real>

@@ -112,6 +112,7 @@ class RigidContacts {
   }
   void findAllCorners(Bodies bodies);
   void findAllCorners(Bodies bodies, CornerHits& corners);
+  bool isListed(std::uint32_t proxy, const CornerMemory& corner, Bodies bodies) const;
   bool touch(RigidContact& contact, const Body<Real>& body, const CornerHits& corners, const Steps& steps,
              RestingLoads& resting, RigidTouch& out);
   bool touchMoved(RigidContact& contact, const Body<Real>& body, const Steps& steps, double kick,

@@ -164,22 +164,45 @@ double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& 
   return giveWay(hits, step, memory);
 }
 
+// What a corner has come nearer to another element of the body in the last step, along the normal of its hit
+// [m].
+template <class Real>
+double nearerTo(const Body<Real>& body, std::uint32_t element, const Eigen::Vector3d& at,
+                const Eigen::Vector3d& normal, const RigidProxy& proxy, double moved) {
+  const Eigen::Vector3d arm = at - body.state.origin - body.work.position[element];
+  const Eigen::Vector3d velocity = body.state.velocity[element].template cast<double>() +
+                                   body.state.spin[element].template cast<double>().cross(arm) -
+                                   proxy.velocity - proxy.spin.cross(at - proxy.position);
+  return -moved * normal.dot(velocity);
+}
+
 // Takes the depth without force off the hits in work.faces and adds those of corners, less theirs. Returns
 // what the springs lost [J].
 template <class Real>
 double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> corners, const FaceStep& step,
-            const PartingMotion& fragment, const RigidSide& side, FaceTouch& faces) {
+            const PartingMotion& fragment, const RigidSide& side, const Eigen::Matrix3d& turn,
+            FaceTouch& faces) {
   faces.withhold(step.law, fragment);
   double lost = sinkFaces(faces.hits(), body.state.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
   if (!corners.empty()) faces.withhold(step.law, fragment);
+  const Eigen::Vector3d x = body.state.origin + body.work.position[c.element];
   faces.lift([&](FaceHit& hit) {
     if (hit.corner == CornerName{}) {
       hit.yielded = c.faces.yielded;
       return c.faces.sunk;
     }
-    CornerMemory& corner = side.state.corners.press(hit.corner, body.id, c.element, hit.depth, step.way,
-                                                    std::max(0.0, step.nearer(hit)));
+    const double nearer = step.nearer(hit);
+    const CornerMemory* last = side.state.corners.lastOf(hit.corner);
+    const bool slides = last && last->body == body.id && last->element != c.element;
+    CornerMemory& corner = side.state.corners.press(
+        hit.corner,
+        {body.id, c.element, hit.depth, step.way, nearer,
+         slides ? nearerTo(body, last->element, x + turn * hit.at, turn * hit.normal, side.proxy, step.moved)
+                : nearer,
+         hit.weight * step.law.stiffness});
+    corner.speed = step.moved > 0 ? nearer / step.moved : 0;
+    lost += corner.lost;
     const ContactYield<double> yield = step.yieldOf(hit, corner.sunk);
     corner.sunk += yield.yielded;
     corner.pressed -= yield.yielded;
@@ -238,7 +261,8 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
                                parting.jolt, parting.share};
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
-  out.slipped = sink(c, body, corners, {law, own, moved, 2 * moved * fastest}, fragment, side, work.faces);
+  out.slipped =
+      sink(c, body, corners, {law, own, moved, 2 * moved * fastest}, fragment, side, turn, work.faces);
   const FacePress press(work.faces.hits(), law, own, {work.moved, work.steps.next});
   if (!(press.weight > 0)) {
     out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);
