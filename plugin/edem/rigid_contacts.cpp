@@ -40,7 +40,7 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
     state.key = proxy.key != 0 ? proxy.key : p + 1;
     const auto before = std::find_if(m_before.begin(), m_before.end(),
                                      [&](const RigidState& s) { return s.key == state.key; });
-    proxy.given = proxy.surplus = 0;
+    proxy.given = proxy.givenNext = proxy.surplus = 0;
     if (before != m_before.end()) {
       state.left = before->left;
       state.moved = true;
@@ -504,6 +504,7 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
     const double givenNext = -power(state.force, state.torque);
     books.bullet.work.add(given, givenNext);
     proxy.given += given + givenNext;
+    proxy.givenNext = givenNext;
     proxy.surplus -= given;
     m_states[p].surplusNext -= givenNext;
     books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
