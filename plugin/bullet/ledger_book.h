@@ -22,6 +22,8 @@ class LedgerBook {
   /// with a stranger. What the elements received more or less than the debris gave shows as an error.
   void addPush(const ElementPush& push);
 
+  /// What dynamic bodies do in the half substep after the last instant of forces [J].
+  void setExchangedNext(double energy) { m_ledger.exchangedNext = energy; }
   /// What EnergyAlarm found, up to now.
   void addMade(double energy, std::uint32_t bodies);
 

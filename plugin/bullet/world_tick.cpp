@@ -335,6 +335,10 @@ void Destruction::Impl::finish(double dt) {
 
 void Destruction::Impl::closeLedger(double dt) {
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  double next = 0;
+  for (const edem::RigidProxy& proxy : proxies)
+    if (advanced && proxy.isDynamic()) next += proxy.givenNext;
+  ledgerBook.setExchangedNext(next);
   if (!advanced || !failure.empty()) return;
   const auto lines = energyAlarm.end(touched, proxies, dt, ledgerBook.ledger().energyScale);
   ledgerBook.addMade(energyAlarm.made(), energyAlarm.told());

@@ -175,6 +175,37 @@ Eigen::AlignedBox3d Collider::bounds() const {
   return {centre - reach, centre + reach};
 }
 
+double Collider::thickness() const {
+  double least = kInfinity;
+  switch (kind) {
+    case Kind::Plane:
+    case Kind::Mesh:
+      return kInfinity;
+    case Kind::Sphere:
+    case Kind::Capsule:
+      least = 2 * size.x();
+      break;
+    case Kind::Box:
+      least = 2 * size.minCoeff();
+      break;
+    case Kind::Cylinder:
+      least = 2 * std::min(size.x(), size.y());
+      break;
+    case Kind::Cone:  // heights of the triangle that it is cut to along its axis
+      least = 2 * size.y() * std::min(1.0, 2 * size.x() / std::hypot(size.x(), 2 * size.y()));
+      break;
+    case Kind::Hull:
+      for (const Hull::Face& face : hull->faces) {
+        double width = 0;
+        for (const Eigen::Vector3d& v : hull->corners)
+          width = std::max(width, face.offset - face.normal.dot(v));
+        least = std::min(least, width);
+      }
+      break;
+  }
+  return least + 2 * rounding;
+}
+
 SurfacePoint nearest(const Collider& collider, const Eigen::Vector3d& point, double reach) {
   SurfacePoint s =
       nearestLocal(collider, collider.place.inverse(Eigen::Isometry) * point, reach + collider.rounding);

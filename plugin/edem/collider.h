@@ -49,6 +49,7 @@ struct Collider {
   /// Capsule, cylinder or cone.
   bool isRound() const { return kind == Kind::Capsule || kind == Kind::Cylinder || kind == Kind::Cone; }
   Eigen::AlignedBox3d bounds() const;  ///< in the frame of the rigid body; a plane's is infinite
+  double thickness() const;  ///< its least width; infinite where it has no other side: plane, mesh [m]
 };
 
 /// Nearest point of a surface.

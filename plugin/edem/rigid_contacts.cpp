@@ -19,6 +19,11 @@ RigidPose poseNow(const RigidProxy& proxy) {
   return {proxy.position, proxy.velocity, proxy.spin, proxy.orientation};
 }
 
+// Of its surface, beside a drift [m/s].
+double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift) {
+  return (proxy.velocity - drift).norm() + proxy.spin.norm() * proxy.reach();
+}
+
 void setPose(RigidProxy& proxy, const RigidPose& pose) {
   proxy.position = pose.position;
   proxy.velocity = pose.velocity;
@@ -40,7 +45,7 @@ void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
     state.key = proxy.key != 0 ? proxy.key : p + 1;
     const auto before = std::find_if(m_before.begin(), m_before.end(),
                                      [&](const RigidState& s) { return s.key == state.key; });
-    proxy.given = proxy.surplus = 0;
+    proxy.given = proxy.givenNext = proxy.surplus = 0;
     if (before != m_before.end()) {
       state.left = before->left;
       state.moved = true;
@@ -516,6 +521,7 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
     const double givenNext = -power(state.force, state.torque);
     books.bullet.work.add(given, givenNext);
     proxy.given += given + givenNext;
+    proxy.givenNext = givenNext;
     proxy.surplus -= given;
     m_states[p].surplusNext -= givenNext;
     books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
@@ -544,11 +550,24 @@ double RigidContacts<Real>::overlapOf(std::size_t place) const {
 template <class Real>
 double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
   double fastest = 0;
-  for (std::size_t i = 0; i < m_proxies.size(); ++i) {
-    const RigidProxy& p = m_proxies[i];
-    fastest = std::max(fastest, (p.velocity - drifts[i].velocity).norm() + p.spin.norm() * p.reach());
-  }
+  for (std::size_t i = 0; i < m_proxies.size(); ++i)
+    fastest = std::max(fastest, speedOf(m_proxies[i], drifts[i].velocity));
   return fastest;
+}
+
+template <class Real>
+double RigidContacts<Real>::shortestPass(Bodies bodies, std::span<const Drift> drifts, double speed) const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < m_contacts.size(); ++k) {
+    const RigidContact& c = m_contacts[k];
+    const bool same = k > 0 && m_contacts[k - 1].proxy == c.proxy && m_contacts[k - 1].body == c.body;
+    if (same || bodies[c.body]->constants->cells) continue;
+    const RigidProxy& proxy = m_proxies[c.proxy];
+    const double fast = speed + speedOf(proxy, drifts[c.proxy].velocity);
+    if (!(fast > 0)) continue;
+    for (const Collider& part : proxy.parts) shortest = std::min(shortest, part.thickness() / fast);
+  }
+  return shortest;
 }
 
 template class RigidContacts<float>;

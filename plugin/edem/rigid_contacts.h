@@ -75,6 +75,8 @@ class RigidContacts {
 
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
+  /// Shortest time in which a sphere that moves at `speed` is through a rigid body that it is near [s].
+  double shortestPass(Bodies bodies, std::span<const Drift> drifts, double speed) const;
   std::span<const RigidProxy> proxies() const { return m_proxies; }
 
  private:

@@ -46,6 +46,9 @@ struct RigidProxy {
   std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
   /// Work by its own motion in the substeps, on elements and contacts [J].
   double given = 0;
+  /// Of it, what its velocity is ahead of the last instant of forces by: at that instant it held so much more
+  /// kinetic energy than it does by its velocity [J].
+  double givenNext = 0;
   /// Work on the elements, by their own motion, beyond what the body gave; summed over ticks never more than
   /// 0, or the contacts make energy. Up to the last instant of forces [J].
   double surplus = 0;

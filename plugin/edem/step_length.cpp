@@ -117,6 +117,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   rigid.soften(m_bound.frequency2);
   rigid.visitProxyRates([&](std::uint32_t place, std::uint32_t i, const ElementRates& proxy) {
     add(place, m_rates[place][i], proxy);
+    m_contact2 = std::max(m_contact2, proxy.stiffness);
   });
 }
 

@@ -19,7 +19,9 @@ namespace {
 
 // Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
 constexpr double kSkinRadii = 0.5;
-// An element may not pass more than this share of its radius in a substep, or thin things are missed.
+// An element may not pass more than this share of its radius in a substep, or thin things are missed. Nor a
+// sphere more than this share of what it is near is thick: the force turns round at its middle, and the
+// moment of that is known to half a substep.
 constexpr double kTravelShare = 0.25;
 
 // `left`: of the tick [s].
@@ -77,15 +79,18 @@ template <class Real>
 double longestStep(World<Real>& w, double dt) {
   w.stepLength.bound(w.bodies, w.lists, w.rigid);
   const double stable = std::min(w.def.substepSafety * w.stepLength.stable(), w.stepLength.resolving());
-  double speed = w.rigid.maxSpeed(w.drifts.proxies), radius = std::numeric_limits<double>::infinity();
+  double speed = 0, radius = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     const Body<Real>& body = *w.bodies[b];
     if (body.state.asleep) continue;
     speed = std::max(speed, speedOf(body, w.drifts.bodies[b].velocity));
     radius = std::min(radius, double(body.constants->radius));
   }
+  const double pass = w.rigid.shortestPass(w.bodies, w.drifts.proxies, speed);
+  speed = std::max(speed, w.rigid.maxSpeed(w.drifts.proxies));
   const bool travels = speed > 0 && std::isfinite(radius);
-  const double travel = travels ? kTravelShare * radius / speed : std::numeric_limits<double>::infinity();
+  const double travel =
+      kTravelShare * std::min(pass, travels ? radius / speed : std::numeric_limits<double>::infinity());
   const double shortest = 1.0 / 60 / w.def.maxSubstepsPerFrame * (1 - 1e-9);
   char text[200];
   if (stable < shortest) {

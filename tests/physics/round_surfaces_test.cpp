@@ -118,5 +118,25 @@ TEST(RoundSurface, BoundsHoldTheSolid) {
   }
 }
 
+// Of a cone: the shorter height of a triangle with a base of 2 and a height of 2, 4 / sqrt(5).
+TEST(Thickness, IsTheLeastWidth) {
+  using Kind = edem::Collider::Kind;
+  edem::Collider part;
+  part.size = {1, 2, 0.5};
+  const auto thicknessAs = [&](Kind kind) {
+    part.kind = kind;
+    return part.thickness();
+  };
+  EXPECT_EQ(thicknessAs(Kind::Box), 1);
+  EXPECT_EQ(thicknessAs(Kind::Sphere), 2);
+  EXPECT_EQ(thicknessAs(Kind::Capsule), 2);
+  EXPECT_EQ(thicknessAs(Kind::Cylinder), 2);
+  EXPECT_EQ(thicknessAs(Kind::Plane), std::numeric_limits<double>::infinity());
+  part.size = {1, 1, 0};
+  EXPECT_NEAR(thicknessAs(Kind::Cone), 4 / std::sqrt(5.0), 1e-12);
+  part.rounding = 0.25;
+  EXPECT_EQ(thicknessAs(Kind::Cylinder), 2.5);
+}
+
 }  // namespace
 }  // namespace rubble::test

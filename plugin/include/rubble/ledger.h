@@ -28,13 +28,17 @@ struct Ledger {
   double momentumError() const { return linearError > angularError ? linearError : angularError; }
 
   // Energy [J]
-  double kinetic = 0;      ///< of elements
-  double elastic = 0;      ///< of springs, anchors and element contacts, from rest
-  double gravity = 0;      ///< work done by gravity so far
-  double dissipated = 0;   ///< by dashpots, friction, air, ground hits of debris
-  double fracture = 0;     ///< released by broken springs and crushed elements, not given to debris
-  double debris = 0;       ///< kinetic energy of debris
-  double exchanged = 0;    ///< work done by Bullet's bodies so far
+  double kinetic = 0;     ///< of elements
+  double elastic = 0;     ///< of springs, anchors and element contacts, from rest
+  double gravity = 0;     ///< work done by gravity so far
+  double dissipated = 0;  ///< by dashpots, friction, air, ground hits of debris
+  double fracture = 0;    ///< released by broken springs and crushed elements, not given to debris
+  double debris = 0;      ///< kinetic energy of debris
+  double exchanged = 0;   ///< work done by Bullet's bodies so far
+  /// The energies here are those of the instant of the last forces, velocities those of half a substep later.
+  /// At that instant Bullet's dynamic bodies held so much more kinetic energy than by their velocities: what
+  /// they do on elements in that half step.
+  double exchangedNext = 0;
   double removed = 0;      ///< taken away by sleep, removal and dust
   double energyError = 0;  ///< dimensionless
   /// The most that elements got from one rigid body beyond what that gave, up to now: energy out of nothing
