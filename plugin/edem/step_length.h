@@ -30,9 +30,10 @@ class StepLength {
 
   /// Largest stable step under the last bound [s], and the body that sets it (place).
   double stable() const { return m_bound.stableStep(); }
-  /// Largest step that follows a single contact, or a rigid body on all that is near it, through its blow
-  /// well enough for its energy [s].
+  /// Largest step that follows a single contact through its blow well enough for its energy [s].
   double resolving() const;
+  /// The same of a rigid body on all that is near it, which is more than presses it [s].
+  double resolvingRigid() const;
   std::uint32_t stiffest() const { return m_stiffest; }
 
  private:
@@ -42,7 +43,8 @@ class StepLength {
   std::vector<std::vector<ElementRates>> m_springs, m_rates;  // by body
   std::vector<std::vector<ElementRates>> m_next;              // of the contact that may begin at each element
   RateBound m_bound;
-  double m_contact2 = 0;  // largest frequency^2 of two sides on one contact, of a rigid body on all [1/s^2]
+  double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
+  double m_proxy2 = 0;    // largest of a rigid body on all that is near it [1/s^2]
   std::uint32_t m_stiffest = 0;
 };
 

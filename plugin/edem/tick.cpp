@@ -108,7 +108,8 @@ double longestStep(World<Real>& w, double dt) {
     w.report.warning = text;
     return std::min({dt, stable, shortest});
   }
-  return std::min({dt, stable, travel});
+  // A blow on all that is near is followed as well as the substeps allow: it may be on less.
+  return std::min({dt, stable, travel, std::max(w.stepLength.resolvingRigid(), shortest)});
 }
 
 template <class Real>
