@@ -1,7 +1,5 @@
 #include "bullet/anchor_body.h"
 
-#include <LinearMath/btQuickprof.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -109,7 +107,6 @@ void Destruction::Impl::setAnchorBody(DestructibleBody& body, btRigidBody* base,
 }
 
 void Destruction::Impl::carryAnchored(double dt) {
-  BT_PROFILE("Rubble carry anchored");
   for (DestructibleBody* body : bodies) {
     DestructibleBody::Impl& own = body->impl();
     bullet::AnchorBody& anchor = own.anchorBody;
