@@ -8,6 +8,14 @@
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
+/// Centre of mass, in the world [m].
+inline Eigen::Vector3d centreOf(const DestructibleBodyDef& def) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < def.asset->elementCount(); ++i)
+    sum += def.asset->volumes[i] / def.asset->volume() * def.asset->positions[i];
+  return toEigen(def.transform) * sum;
+}
+
 /// All but the crushing energies, which the debris' constants give.
 inline edem::BodyDef elementsOf(const DestructibleBodyDef& def) {
   edem::BodyDef elements;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet/anchor_body.h"
 #include "bullet/coupler_constraint.h"
 #include "bullet/element_shape.h"
 #include "bullet/host_settings.h"
@@ -27,6 +28,7 @@ struct DestructibleBody::Impl {
   bullet::WholeShape whole;                   ///< without a shape while the body is not to be whole
   bool held = false;                          ///< by anchors
   int flags = 0;                              ///< Bullet's of collision, from before the thaw
+  bullet::AnchorBody anchorBody;              ///< while anchors hold to one
   bullet::HostSettings settings;              ///< from before the thaw
   double restTime = 0;                        ///< since it was last too restless to be whole [s]
   bool struck = false;                        ///< while whole: by the application, or overloaded

@@ -31,6 +31,16 @@ void Destruction::removeBody(DestructibleBody* body) {
   delete body;
 }
 
+void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody) {
+  if (body->impl().whole.shape) throw Error("anchorBody: of a body that Bullet may move as a whole");
+  edem::Twist motion;
+  if (anchorBody) {
+    bullet::requireAnchorBody(m_impl->world, *anchorBody);
+    motion = bullet::motionAt(*anchorBody, m_impl->solver->heldFrame(body->id()).origin);
+  }
+  m_impl->setAnchorBody(*body, anchorBody, motion);
+}
+
 void Destruction::strike(DestructibleBody* body) {
   if (!body->isWhole()) return;
   body->impl().struck = true;

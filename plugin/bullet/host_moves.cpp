@@ -54,6 +54,7 @@ void Destruction::Impl::takeHostMoves(double dt) {
     solver->setAsleep(own.id, false);
     if (moved) {
       solver->move(own.id, wayFrom(own.shownPlace, place));
+      if (own.anchorBody.body) bullet::holdAnew(own.anchorBody, solver->heldFrame(own.id));
       own.shape->follow();
     }
     if (set || forced) {

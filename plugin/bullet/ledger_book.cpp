@@ -69,7 +69,8 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.elastic = books.elastic;
   l.debris = debris.kinetic;
   l.gravity = books.gravity.work.done() + m_gravity.energy;
-  l.exchanged = books.bullet.work.done() - m_push.received.energy - (m_surfaceWork - m_push.given.energy);
+  l.exchanged = books.bullet.work.done() + books.anchors.work.done() - m_push.received.energy -
+                (m_surfaceWork - m_push.given.energy);
   l.dissipated =
       -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy - m_surfaceWork;
   m_lostByElements = -books.dissipated.done() + books.massDamped + books.fracture + books.slept;

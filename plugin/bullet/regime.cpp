@@ -78,6 +78,11 @@ Eigen::AlignedBox3d reachedBox(const DestructibleBody& body, double way) {
 
 void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef) {
   DestructibleBody::Impl& own = body.impl();
+  if (own.anchorBody.body) {
+    if (def.log)
+      def.log(LogLevel::Info, own.name + ": stays elements: its anchors hold to a body that may move");
+    return;
+  }
   const edem::BodyView view = solver->view(own.id);
   own.whole = bullet::wholeShape(*own.asset, view.mass, view.inertia);
   own.held = bodyDef.anchored && !own.asset->anchors.empty();

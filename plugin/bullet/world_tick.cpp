@@ -74,6 +74,14 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   auto impl = std::make_unique<DestructibleBody::Impl>();
   impl->spawner = std::make_unique<debris::Spawner>(bodyDef.material, bodyDef.model, def.seed);
   edem::BodyDef elements = bullet::elementsOf(bodyDef);
+  const bool carried = bodyDef.anchorBody && bodyDef.anchored && !bodyDef.asset->anchors.empty();
+  edem::Twist carriedBy;
+  if (carried) {
+    bullet::requireAnchorBody(world, *bodyDef.anchorBody);
+    carriedBy = bullet::motionAt(*bodyDef.anchorBody, bullet::centreOf(bodyDef));
+    elements.velocity = carriedBy.linear;
+    elements.spin = carriedBy.angular;
+  }
   double mass = 0;
   const Material& m = bodyDef.material;
   for (const double volume : bodyDef.asset->volumes) {
@@ -109,6 +117,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   auto* body = new DestructibleBody(info, std::move(impl));
   body->impl().whole.mass = mass;
   body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
+  if (carried) setAnchorBody(*body, bodyDef.anchorBody, carriedBy);
   if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
   body->impl().shape->setObject(*body);
   if (!body->isWhole()) {
@@ -226,6 +235,7 @@ void Destruction::Impl::gatherProxies(double dt) {
   }
   coupleLinks();
   spareFiltered();
+  bearAnchored();
 }
 
 // The copies of all bodies' neighbours are one list: what one body touches another may have to let through.
@@ -245,6 +255,7 @@ void Destruction::Impl::advance(double dt) {
   BT_PROFILE("Rubble advance");
   softContacts.deliver(*solver, dt);
   takeHostMoves(dt);
+  carryAnchored(dt);
   followSleep();
   substeps = 0;
   failSpoiled();

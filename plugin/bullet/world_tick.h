@@ -52,6 +52,8 @@ struct Destruction::Impl {
   ~Impl();
 
   DestructibleBody* addBody(const DestructibleBodyDef& def);
+  /// Ties its anchors to `base` with the motion that they have of it now; null: to the world.
+  void setAnchorBody(DestructibleBody& body, btRigidBody* base, const edem::Twist& motion);
   /// The body is being deleted, by us or by the application.
   void forget(DestructibleBody& body);
 
@@ -98,6 +100,9 @@ struct Destruction::Impl {
   void logPrestress(std::uint32_t id, const std::string& name, const DestructibleBodyDef& bodyDef) const;
   void gatherProxies(double dt);
   void spareFiltered();
+  void bearAnchored();
+  /// Tells the anchors where the bodies that they hold to will be.
+  void carryAnchored(double dt);
   void followElements();
   void forgetTaken();
   void lateImpulses();

@@ -7,9 +7,9 @@
 // with X_I its rest position about the body's centre of mass. Frames stand still during a tick; between ticks
 // frames.h gives new fragments frames of their own and moves each to its fragment's best rigid motion, and
 // the springs' rest vectors turn with it. A spring joins elements of one frame: one that breaks works in it
-// to the end of its tick. Frame 0 is where the body was made. It never moves and holds what an anchor holds,
-// and crushed elements. Positions are in double, for those of two frames meet in contacts. All vectors are in
-// world axes.
+// to the end of its tick. Frame 0 is where the body was made. It never moves, but with what the anchors hold
+// to (anchor_base.h), and holds what an anchor holds, and crushed elements. Positions are in double, for
+// those of two frames meet in contacts. All vectors are in world axes.
 #pragma once
 
 #include <memory>
@@ -67,10 +67,23 @@ struct Body {
 template <class Real>
 Body<Real> makeBody(const BodyDef& def, std::uint32_t id);
 
-/// The end of spring s that is not `first`: the partner's motion, or a fixed point for an anchor.
+/// The far end of an anchor whose base moves.
+template <class Real>
+SpringEnd<Real> farEnd(const Body<Real>& body, std::size_t s) {
+  const Spring<Real>& spring = body.state.springs[s];
+  const FarEnds<Real>& far = body.state.farEnds;
+  const Eigen::Vector3d rest =
+      body.work.rest[spring.first] - (body.state.frames[0].origin - body.state.origin);
+  const Vec3<Real> arm = rest.template cast<Real>() + spring.rest, moved = turned(far.turn, arm);
+  return {far.shift + moved, far.turn, far.velocity + far.spin.cross(arm + moved), far.spin};
+}
+
+/// The end of spring s that is not `first`: the partner's motion, or for an anchor a fixed point or one of
+/// its base.
 template <class Real>
 SpringEnd<Real> secondEnd(const Body<Real>& body, std::size_t s) {
-  return body.isAnchor(s) ? SpringEnd<Real>{} : body.end(body.state.springs[s].second);
+  if (!body.isAnchor(s)) return body.end(body.state.springs[s].second);
+  return body.state.base.given ? farEnd(body, s) : SpringEnd<Real>{};
 }
 
 /// Lists anew what is stepped: after elements fell asleep or woke, or springs broke.

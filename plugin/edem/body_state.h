@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "edem/anchor_base.h"
 #include "edem/cell_faces.h"
 #include "edem/host_load.h"
 #include "edem/spring.h"
@@ -11,15 +12,10 @@
 
 namespace rubble::edem {
 
-/// A rigid motion that displacements are from.
-struct Frame {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-};
-
 template <class Real>
 struct BodyState {
-  // Frame 0, moved by the host alone; positions and `BodyWork::rest` are relative to this origin.
+  // Frame 0 where no base moves it, moved by the host alone; positions and `BodyWork::rest` are relative to
+  // this origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
 
@@ -42,6 +38,8 @@ struct BodyState {
   std::uint32_t crushedCount = 0;
   std::uint32_t brokenCount = 0;
   std::uint32_t anchorsIntact = 0;
+  AnchorBase base;        ///< what the far ends of anchors move with
+  FarEnds<Real> farEnds;  ///< now
 
   // Fragments, as labelled last.
   /// Lowest element connected with I through springs; kNoElement if crushed.

@@ -27,6 +27,12 @@ struct FragmentMotion {
   }
 };
 
+/// What the base of anchors gives at their far ends.
+struct BaseLoad {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the origin of their frame [N m]
+};
+
 template <class Real>
 struct BodyWork {
   // What is stepped, in rising order; written by listAwake. Elements that were crushed and springs that broke
@@ -45,6 +51,7 @@ struct BodyWork {
   std::vector<Vec3<double>> position;                   ///< rest + u, relative to origin [m]
   std::vector<Vec3<Real>> force, torque;                ///< all [N], [N m]
   std::vector<Vec3<Real>> dampingForce, dampingTorque;  ///< the part of force and torque that is lost energy
+  BaseLoad base, baseDamping;                           ///< all, and the part that is lost energy
   std::vector<Real> load;                               ///< W_I, eq. (3) [J]
   std::vector<std::uint32_t> overloaded;                ///< springs to break in this substep
   std::vector<BreakMode> overloadMode;                  ///< why, beside `overloaded`

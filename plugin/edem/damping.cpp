@@ -39,8 +39,9 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
     const bool isHeld = held[body.state.fragment[i]] != 0;
     const RigidMotion& m = motions.at(body.state.fragment[i]);
     const Eigen::Vector3d x = body.worldPosition(i);
-    const Eigen::Vector3d v = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.at(x);
-    const Eigen::Vector3d w = isHeld ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : m.spin;
+    const AnchorBase& base = body.state.base;  // at rest where there is none
+    const Eigen::Vector3d v = isHeld ? base.velocityAt(x) : m.at(x);
+    const Eigen::Vector3d w = isHeld ? base.velocity.angular : m.spin;
     const double before = kineticOf(body, i);
     const Vec3<Real> velocity = body.state.velocity[i], spin = body.state.spin[i];
     body.state.velocity[i] += (lost * (v - velocity.template cast<double>())).template cast<Real>();
@@ -54,6 +55,11 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
     const Eigen::Vector3d turn =
         body.constants->inertia[i] * (body.state.spin[i] - spin).template cast<double>();
     books.anchors.push(1, push, x - books.centre, turn);
+    if (base.given) {
+      const double work = push.dot(v) + turn.dot(w);
+      books.anchors.work.add(work, 0);
+      books.massDamped += work;
+    }
     books.linear += push;
     books.angular += (x - books.centre).cross(push) + turn;
   }

@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "edem/frames.h"
 #include "edem/stages.h"
 
 namespace rubble::edem {
@@ -37,6 +38,24 @@ void bookAnchor(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& l
   books.anchors.push(signedKick, force.template cast<double>(), arm, torque.template cast<double>());
 }
 
+// What the base gives at the far end of an anchor, for its work.
+template <class Real>
+void addBase(const Body<Real>& body, std::size_t s, const SpringLoad<Real>& load, double sign,
+             BodyWork<Real>& work) {
+  if (!body.state.base.given) return;
+  const Vec3<Real> force = load.elastic + load.damping;
+  const Vec3<Real> torque = load.armFirst.cross(force) + load.elasticTorque + load.dampingTorque;
+  const Vec3<Real> lostTorque = load.armFirst.cross(load.damping) + load.dampingTorque;
+  const Eigen::Vector3d arm =
+      body.state.origin - body.state.base.at.origin + work.position[body.state.springs[s].first];
+  const Eigen::Vector3d all = sign * force.template cast<double>(),
+                        lost = sign * load.damping.template cast<double>();
+  work.base.force += all;
+  work.base.torque += arm.cross(all) + sign * torque.template cast<double>();
+  work.baseDamping.force += lost;
+  work.baseDamping.torque += arm.cross(lost) + sign * lostTorque.template cast<double>();
+}
+
 }  // namespace
 
 template <class Real>
@@ -49,6 +68,7 @@ void beginSubstep(const BodyState<Real>& state, BodyWork<Real>& work) {
     work.dampingTorque[i].setZero();
     work.load[i] = 0;
   }
+  work.base = work.baseDamping = {};
   work.overloaded.clear();
   work.overloadMode.clear();
   work.crushing.clear();
@@ -71,6 +91,7 @@ double accumulateSprings(const Body<Real>& body, BodyWork<Real>& work, double ki
     work.load[spring.first] += energy;
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, kick, books);
+      addBase(body, s, load, 1, work);
     } else {
       work.load[spring.second] += energy;
     }
@@ -128,6 +149,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
     report.broken.push_back({body.id, s, body.work.overloadMode[k], energy, at});
     if (body.isAnchor(s)) {
       bookAnchor(body, s, load, -kick, books);
+      addBase(body, s, load, -1, body.work);
       --body.state.anchorsIntact;
       bool held = false;
       for (std::uint32_t q = body.constants->springOffsets[spring.first];
@@ -148,6 +170,21 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
   }
 }
 
+template <class Real>
+void moveBase(Body<Real>& body, double kick, double step, Books& books) {
+  AnchorBase& base = body.state.base;
+  if (!base.given) return;
+  const auto power = [&](const BaseLoad& load) {
+    return 0.5 * kick * (load.force.dot(base.velocity.linear) + load.torque.dot(base.velocity.angular));
+  };
+  const double given = power(body.work.base), lost = power(body.work.baseDamping);
+  advance(base, step);
+  writeFarEnds(body);
+  books.anchors.work.add(given, power(body.work.base));
+  // Dashpots lose by how the ends move beside each other; integrate has booked the elements' part.
+  books.dissipated.add(-lost, -power(body.work.baseDamping));
+}
+
 template void beginSubstep(const BodyState<float>&, BodyWork<float>&);
 template void beginSubstep(const BodyState<double>&, BodyWork<double>&);
 template double accumulateSprings(const Body<float>&, BodyWork<float>&, double, bool, Books&);
@@ -155,6 +192,8 @@ template double accumulateSprings(const Body<double>&, BodyWork<double>&, double
 template void markCrushed(const Body<float>&, BodyWork<float>&);
 template void markCrushed(const Body<double>&, BodyWork<double>&);
 template void applyBreaks(Body<float>&, std::uint32_t, double, PairLists<float>&, Books&, TickReport&);
+template void moveBase(Body<float>&, double, double, Books&);
+template void moveBase(Body<double>&, double, double, Books&);
 template void applyBreaks(Body<double>&, std::uint32_t, double, PairLists<double>&, Books&, TickReport&);
 
 }  // namespace rubble::edem

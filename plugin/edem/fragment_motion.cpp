@@ -34,6 +34,11 @@ std::vector<double> pressedBefore(const BodyWork<Real>& work) {
   return pressed;
 }
 
+void goWithBase(const AnchorBase& base, FragmentMotion& motion) {
+  motion.velocity = base.velocityAt(motion.centre);
+  motion.spin = base.velocity.angular;
+}
+
 }  // namespace
 
 template <class Real>
@@ -94,6 +99,7 @@ void beginMotions(Body<Real>& body) {
     if (m.fixed || !(mass[f] > 0)) {
       m.velocity.setZero();
       m.spin.setZero();
+      if (m.fixed && body.state.base.given) goWithBase(body.state.base, m);
       return;
     }
     m.inverseInertia = inertia[f].inverse();
@@ -110,6 +116,9 @@ void moveMotions(Body<Real>& body, double kick, double step, const Eigen::Vector
     if (!m.fixed) {
       m.velocity += kick * (m.inverseMass * m.force + gravity);
       m.spin += kick * (m.inverseInertia * m.torque);
+      m.centre += step * m.velocity;
+    } else if (body.state.base.given) {
+      goWithBase(body.state.base, m);
       m.centre += step * m.velocity;
     }
     m.force.setZero();

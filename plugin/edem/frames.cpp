@@ -38,14 +38,15 @@ void visitMoving(const Body<Real>& body, Visit&& visit) {
 
 template <class Real>
 void putInFrame0(Body<Real>& body, std::size_t i, const Frame& was) {
-  const Eigen::Vector3d rest = body.state.turn * body.constants->restCentred[i];
+  const Frame& frame0 = body.state.frames[0];
+  const Eigen::Vector3d rest = frame0.turn * body.constants->restCentred[i];
   const Eigen::Vector3d u =
       was.turn * body.constants->restCentred[i] + body.state.displacement[i].template cast<double>();
   const Eigen::Quaterniond q =
-      body.state.rotation[i].template cast<double>() * was.turn * body.state.turn.conjugate();
-  body.state.displacement[i] = (was.origin - body.state.origin + (u - rest)).template cast<Real>();
+      body.state.rotation[i].template cast<double>() * was.turn * frame0.turn.conjugate();
+  body.state.displacement[i] = (was.origin - frame0.origin + (u - rest)).template cast<Real>();
   body.state.rotation[i] = Quat<Real>(q.template cast<Real>());
-  body.work.rest[i] = rest;
+  body.work.rest[i] = frame0.origin - body.state.origin + rest;
   body.state.frameOf[i] = 0;
 }
 
@@ -89,7 +90,7 @@ void splitFrames(Body<Real>& body) {
   for (std::size_t s = body.constants->anchorBegin; s < body.state.springs.size(); ++s)
     if (body.state.intact[s]) held[body.state.fragment[body.state.springs[s].first]] = 1;
   const std::vector<Frame> old = std::move(body.state.frames);
-  body.state.frames = {{body.state.origin, body.state.turn}};
+  body.state.frames = {old[0]};
   for (std::uint32_t i = 0; i < body.elementCount(); ++i) {
     const std::uint32_t root = body.state.fragment[i];  // not above i: its frame is there
     const Frame& was = old[body.state.frameOf[i]];
@@ -133,11 +134,56 @@ void fitFrames(Body<Real>& body) {
       turnSpring(body, s, turns);
 }
 
+template <class Real>
+void followBase(Body<Real>& body) {
+  if (!body.state.base.given) return;
+  endWay(body.state.base);
+  const Frame old = std::exchange(body.state.frames[0], body.state.base.at);
+  const Frame& now = body.state.frames[0];
+  writeFarEnds(body);
+  const bool turns = !(old.turn.coeffs() == now.turn.coeffs());
+  if (!turns && old.origin == now.origin) return;
+  const Eigen::Vector3d shift = old.origin - now.origin;
+  const Eigen::Matrix3d turnedBack = old.turn.toRotationMatrix() - now.turn.toRotationMatrix();
+  const Eigen::Quaterniond back = old.turn * now.turn.conjugate();
+  const std::vector<Eigen::Matrix3d> matrices = turnsOf(body);
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (body.state.frameOf[i] != 0 || !body.state.alive[i]) continue;
+    const Eigen::Vector3d u = body.state.displacement[i].template cast<double>();
+    body.state.displacement[i] =
+        (u + (shift + turnedBack * body.constants->restCentred[i])).template cast<Real>();
+    if (turns)
+      body.state.rotation[i] = Quat<Real>(
+          (body.state.rotation[i].template cast<double>() * back).normalized().template cast<Real>());
+    turnElement(body, i, matrices);
+  }
+  for (std::size_t s = 0; turns && s < body.state.springs.size(); ++s)
+    if (body.state.intact[s] && body.state.frameOf[body.state.springs[s].first] == 0)
+      turnSpring(body, s, matrices);
+}
+
+template <class Real>
+void writeFarEnds(Body<Real>& body) {
+  const AnchorBase& base = body.state.base;
+  const Frame& frame0 = body.state.frames[0];
+  FarEnds<Real>& far = body.state.farEnds;
+  far.shift = (base.at.origin - frame0.origin).template cast<Real>();
+  far.turn = Quat<Real>::Identity();
+  if (!(base.at.turn.coeffs() == frame0.turn.coeffs()))
+    far.turn = (base.at.turn * frame0.turn.conjugate()).normalized().template cast<Real>();
+  far.velocity = base.velocity.linear.template cast<Real>();
+  far.spin = base.velocity.angular.template cast<Real>();
+}
+
 template void turnRest(Body<float>&, std::size_t);
 template void turnRest(Body<double>&, std::size_t);
 template void splitFrames(Body<float>&);
 template void splitFrames(Body<double>&);
 template void fitFrames(Body<float>&);
 template void fitFrames(Body<double>&);
+template void followBase(Body<float>&);
+template void followBase(Body<double>&);
+template void writeFarEnds(Body<float>&);
+template void writeFarEnds(Body<double>&);
 
 }  // namespace rubble::edem

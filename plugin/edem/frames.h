@@ -21,4 +21,12 @@ void splitFrames(Body<Real>& body);
 template <class Real>
 void fitFrames(Body<Real>& body);
 
+/// Moves frame 0 to where the base of the anchors is, and expresses what it holds in it, likewise.
+template <class Real>
+void followBase(Body<Real>& body);
+
+/// Writes what springs take of the base's motion.
+template <class Real>
+void writeFarEnds(Body<Real>& body);
+
 }  // namespace rubble::edem

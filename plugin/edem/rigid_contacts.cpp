@@ -160,9 +160,11 @@ void RigidContacts<Real>::visitNear(std::uint32_t p, std::uint32_t place, const 
   // Grown again, for the box of a single element or of a flat layer has no volume for rounding to miss.
   box = grown(box.intersection(own.bounds), 0.25 * lists.skin());
 
+  const bool bears = std::find(proxy.bears.begin(), proxy.bears.end(), body.id) != proxy.bears.end();
   const auto consider = [&](std::uint32_t i) {
     if (!body.state.alive[i] || bool(body.state.sleeping[i]) != sleeping) return;
     if (body.state.anchored[i] && proxy.isStatic()) return;  // it stands on that by its anchor
+    if (bears && body.work.motions[body.work.motionOf[i]].fixed) return;
     const Eigen::Vector3d x = body.state.origin + body.work.position[i];
     const double near = body.constants->cells ? body.constants->cells->reach[i] + away(lists) : reach;
     const double distance = nearest(proxy, x, near).distance;

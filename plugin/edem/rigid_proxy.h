@@ -38,6 +38,8 @@ struct RigidProxy {
   std::vector<Collider> parts;
   std::vector<std::uint32_t> spared;  ///< bodies whose elements it does not touch (ids)
 
+  std::vector<std::uint32_t> bears;  ///< bodies whose anchors hold to it (ids): it touches only what is free
+
   // Collected by the substeps.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();         ///< on the rigid body [N s]
   Eigen::Vector3d angularImpulse = Eigen::Vector3d::Zero();  ///< about its centre of mass [N m s]

@@ -9,6 +9,7 @@
 #include "edem/body_books.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
+#include "edem/frames.h"
 #include "edem/host_moves.h"
 #include "edem/parking.h"
 #include "edem/prestress.h"
@@ -123,6 +124,30 @@ class SolverOf final : public Solver {
     forgetSleep(body);
     endContactsOf(id);
     moveWhole(body, by, m_world.books);
+  }
+
+  Frame heldFrame(std::uint32_t id) const override { return of(id).state.frames[0]; }
+  void setBase(std::uint32_t id, const Twist& velocity) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    assert(!body.state.parked);
+    body.state.base = {};
+    body.state.base.given = true;
+    body.state.base.at = body.state.frames[0];
+    body.state.base.velocity = body.state.base.mean = body.state.base.end = velocity;
+    writeFarEnds(body);
+  }
+  bool carry(std::uint32_t id, const Frame& target) override {
+    const std::size_t place = placeOf(id);
+    Body<Real>& body = *m_world.bodies[place];
+    AnchorBase& base = body.state.base;
+    assert(base.given);
+    const Frame& now = body.state.frames[0];
+    if (target.origin == now.origin && target.turn.coeffs() == now.turn.coeffs()) return !base.end.isZero();
+    base.target = target;
+    if (body.state.asleep) setAsleep(id, false);
+    for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+      if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, std::uint32_t(place), i);
+    return true;
   }
 
   void load(std::uint32_t id, std::span<const HostLoad> loads) override {

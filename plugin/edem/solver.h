@@ -90,6 +90,13 @@ class Solver {
   virtual void pushAll(std::uint32_t id, std::uint32_t root, const Eigen::Vector3d& velocity,
                        const Eigen::Vector3d& spin) = 0;
   virtual void move(std::uint32_t id, const Eigen::Isometry3d& by) = 0;
+  /// Ties the far ends of a body's anchors to something that moves: where the frame is that they are held in
+  /// (the asset's axes, the origin in its centre of mass), its velocity [m/s] and spin [rad/s] so far.
+  virtual Frame heldFrame(std::uint32_t id) const = 0;
+  virtual void setBase(std::uint32_t id, const Twist& velocity) = 0;
+  /// Where that frame will be when the next tick ends; without it they stand still. Returns whether they
+  /// move; then what they hold wakes.
+  virtual bool carry(std::uint32_t id, const Frame& target) = 0;
   /// Presses elements of a body all through its next tick. Booked as the host's; wakes nothing.
   virtual void load(std::uint32_t id, std::span<const HostLoad> loads) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in

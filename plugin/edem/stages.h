@@ -73,6 +73,10 @@ template <class Real>
 Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d& gravity,
                std::span<const Vec3<double>> listed, const Eigen::Vector3d& drifted, Books& books);
 
+/// Moves what the anchors hold to, and books its work of the substep.
+template <class Real>
+void moveBase(Body<Real>& body, double kick, double step, Books& books);
+
 /// Leaving elements leave, with their share of the energy of report.broken[brokenBegin..].
 template <class Real>
 void removeCrushed(Body<Real>& body, std::size_t brokenBegin, Books& books, TickReport& report);

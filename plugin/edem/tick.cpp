@@ -184,7 +184,16 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   }
   w.rigid.integrate(w.bodies, kick, step, w.books);
   for (auto& body : w.bodies)
+    if (!body->state.asleep) moveBase(*body, kick, step, w.books);
+  for (auto& body : w.bodies)
     if (!body->work.crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
+}
+
+// What moves with its base is not slow, however slowly that goes.
+template <class Real>
+void staysAwake(Body<Real>& body) {
+  for (const std::uint32_t i : body.work.awake)
+    if (body.state.frameOf[i] == 0) body.state.calmTime[i] = body.state.slowTime[i] = 0;
 }
 
 template <class Real>
@@ -198,9 +207,14 @@ void closeTick(World<Real>& w, double dt) {
     listAwake(*body);
   }
   for (auto& body : w.bodies) body->state.hostLoads.clear();
-  settle(w, dt);
   for (auto& body : w.bodies)
-    if (!body->state.asleep) fitFrames(*body);
+    if (!body->state.asleep && body->state.base.moves()) staysAwake(*body);
+  settle(w, dt);
+  for (auto& body : w.bodies) {
+    if (body->state.asleep) continue;
+    fitFrames(*body);
+    followBase(*body);
+  }
   putToSleep(w, dt);
 }
 
@@ -221,6 +235,8 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
   if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
+  for (auto& body : w.bodies)
+    if (body->state.base.given) beginWay(body->state.base, body->state.frames[0], dt);
   for (auto& body : w.bodies)
     if (!body->state.asleep || body->work.motions.empty()) beginMotions(*body);
   w.listsStale = true;

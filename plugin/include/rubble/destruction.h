@@ -61,6 +61,11 @@ struct DestructibleBodyDef {
   /// free body, which is logged too. The asset may keep that state (rubble/prestress.h); where it is not this
   /// body's, it is solved anew and a warning logged.
   bool anchored = true;
+  /// What the anchors hold to in place of the world: a kinematic or static body of the world, such as a door
+  /// or a lift, with which they move. The body begins with its motion (`velocity` and `spin` are not looked
+  /// at), does not touch it where anchors hold it, and stays elements in any regime. Once that body has left
+  /// the world its anchors hold where they are.
+  btRigidBody* anchorBody = nullptr;
   Regime regime = Regime::Elements;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;
@@ -99,6 +104,9 @@ class Destruction : public btActionInterface {
   /// object) may delete it.
   DestructibleBody* addBody(const DestructibleBodyDef& def);
   void removeBody(DestructibleBody* body);
+  /// Lets the anchors of a body hold to another, from where both are; null: to the world. Throws
+  /// rubble::Error for one that anchors cannot hold to, and of a body that Bullet may move as a whole.
+  void setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody);
   /// Hands a whole body to its elements in the next tick, as a blow does: for what the application alone
   /// knows of, a blast or a cut. Nothing to do for others.
   void strike(DestructibleBody* body);
