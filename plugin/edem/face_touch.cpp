@@ -187,7 +187,10 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
     hit.normal = surface.normal;
     const Eigen::Vector3d area = p.area / cells.unit;
     Eigen::Vector3d normal;
-    if (deepest->part->isRound()) {
+    if (deepest->part->kind == Collider::Kind::Plane) {
+      normal = deepest->normal;
+      hit.weight = -area.dot(normal);
+    } else if (deepest->part->isRound()) {
       normal = endNormal(*deepest->part, pose, p.at);
       hit.weight = -area.dot(normal);
     } else {
@@ -309,8 +312,8 @@ FacePress::FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& la
   const double length = normal.norm();
   normal = length > 1e-9 * weight ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitY();
   total = std::fmax(0.0, normal.dot(elastic + damping));
-  for (const FaceHit& hit : hits)
-    spread += kFaceSpread * hit.weight * hit.depth / weight * normal.cross(hit.at - at).norm();
+  for (const FaceHit& hit : hits) spread += hit.weight * hit.depth * normal.cross(hit.at - at).norm();
+  spread *= kFaceSpread / weight;
 }
 
 double ballWeights(const RigidProxy& proxy, const Eigen::Vector3d& at, double reach) {
