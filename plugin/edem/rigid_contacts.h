@@ -2,14 +2,11 @@
 // that a fast one is swept through the substeps and does not tunnel.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
-#include <tuple>
 #include <vector>
 
-#include "edem/drift.h"
-#include "edem/pair_lists.h"
+#include "edem/rigid_lists.h"
 #include "edem/rigid_rates.h"
 #include "edem/rigid_touch.h"
 #include "edem/stages.h"
@@ -27,7 +24,9 @@ class RigidContacts {
   /// the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);
   /// True when a proxy has moved more than half the skin since build, beside its drift.
-  bool expired(double skin, std::span<const Drift> drifts) const;
+  bool expired(double skin, std::span<const Drift> drifts) const {
+    return m_lists.expired(skin, drifts, m_proxies, m_states);
+  }
 
   /// Takes faces that broke since the last call into the rates.
   void weigh(Bodies bodies);
@@ -35,7 +34,7 @@ class RigidContacts {
   /// contact alone [1/s^2].
   template <class Visit>
   void visitRates(Bodies bodies, Visit&& visit) const {
-    for (const RigidContact& c : m_contacts) {
+    for (const RigidContact& c : m_lists.contacts()) {
       double frequency2 = 0;
       const ElementRates rates = ratesOf(c, *bodies[c.body], m_states[c.proxy].laws[c.body], frequency2);
       visit(c.body, c.element, rates, c.touching, frequency2);
@@ -47,7 +46,7 @@ class RigidContacts {
   /// Visits visit(body, element, rates of the rigid body) for every candidate at a dynamic body.
   template <class Visit>
   void visitProxyRates(Visit&& visit) const {
-    for (const RigidContact& c : m_contacts)
+    for (const RigidContact& c : m_lists.contacts())
       if (m_proxies[c.proxy].isDynamic()) visit(c.body, c.element, m_states[c.proxy].rates);
   }
 
@@ -66,12 +65,12 @@ class RigidContacts {
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 
-  using VisitElement = std::function<void(std::uint32_t body, std::uint32_t element)>;
-  /// Visits the places of sleeping elements that a proxy which is not still has come near to since the lists
-  /// of pairs were built, or that touched one which is no longer there.
-  void visitDisturbed(Bodies bodies, const PairLists<Real>& lists, const VisitElement& visit) const;
-  /// Visits those of elements that touch a proxy which is not still.
-  void visitAtMoving(const VisitElement& visit) const;
+  using VisitElement = typename RigidLists<Real>::VisitElement;
+  /// See RigidLists.
+  void visitDisturbed(Bodies bodies, const PairLists<Real>& lists, const VisitElement& visit) const {
+    m_lists.visitDisturbed(bodies, lists, m_proxies, m_states, visit);
+  }
+  void visitAtMoving(const VisitElement& visit) const { m_lists.visitAtMoving(m_states, visit); }
 
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
@@ -80,16 +79,6 @@ class RigidContacts {
   std::span<const RigidProxy> proxies() const { return m_proxies; }
 
  private:
-  // A contact that outlives the lists.
-  struct Kept {
-    std::uint64_t key;
-    std::uint32_t body, element;  // id of the body
-    ContactMemory<double> memory;
-    FaceMemory faces;
-    bool touching;
-    bool taken = false;
-    auto name() const { return std::tie(key, body, element); }
-  };
   // What a contact does in this substep.
   struct Push {
     std::uint32_t proxy, body, element;
@@ -97,24 +86,9 @@ class RigidContacts {
     double before = 0;  // power on the element, by its velocity before the substep [W]
   };
 
-  void keepContacts();
   double pushPower(const Push& push, const Body<Real>& body) const;
-  void endContacts(Bodies bodies);
-  static double away(const PairLists<Real>& lists);
-  /// visit(element, its centre [m], its distance from the proxy's surface [m]) for those that sleep, or for
-  /// those that do not, near enough to be listed.
-  template <class Visit>
-  void visitNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body, bool sleeping,
-                 const PairLists<Real>& lists, Visit&& visit) const;
-  void listNear(std::uint32_t proxy, std::uint32_t place, const Body<Real>& body,
-                const PairLists<Real>& lists);
-  void remember(RigidContact& contact);
-  std::uint32_t placeOf(const RigidContact& contact) const {
-    return std::uint32_t(&contact - m_contacts.data());
-  }
   void findAllCorners(Bodies bodies);
   void findAllCorners(Bodies bodies, CornerHits& corners);
-  bool isListed(std::uint32_t proxy, const CornerMemory& corner, Bodies bodies) const;
   bool touch(RigidContact& contact, const Body<Real>& body, const CornerHits& corners, const Steps& steps,
              RestingLoads& resting, RigidTouch& out);
   bool touchMoved(RigidContact& contact, const Body<Real>& body, const Steps& steps, double kick,
@@ -126,16 +100,13 @@ class RigidContacts {
 
   std::span<RigidProxy> m_proxies;
   std::vector<RigidState> m_states, m_before;  // of this tick, of the last
-  std::vector<RigidContact> m_contacts;        // rising in (proxy, body, element)
-  std::vector<std::uint32_t> m_ids;            // of the bodies, by place, at the last build
-  std::vector<Kept> m_kept;                    // between two lists, and while their body sleeps
-  std::vector<ContactSide> m_sides;            // of the bodies, by place
-  std::vector<Push> m_pushes;                  // on elements, in this substep
+  RigidLists<Real> m_lists;
+  std::vector<ContactSide> m_sides;  // of the bodies, by place
+  std::vector<Push> m_pushes;        // on elements, in this substep
   FaceTouch m_faces;
   CornerHits m_corners, m_cornersLeft;  // where the proxies are, and where the last substep left them
   double m_moved = 0;                   // length of the step before the last accumulate [s]
   double m_elastic = 0;
-  double m_lost = 0;  // energy of contacts that ended between two substeps [J]
 };
 
 extern template class RigidContacts<float>;

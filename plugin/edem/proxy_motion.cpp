@@ -1,0 +1,101 @@
+#include "edem/proxy_motion.h"
+
+#include <algorithm>
+
+namespace rubble::edem {
+
+RigidPose poseOf(const RigidProxy& proxy) {
+  return {proxy.position, proxy.velocity, proxy.spin, proxy.orientation};
+}
+
+void setPose(RigidProxy& proxy, const RigidPose& pose) {
+  proxy.position = pose.position;
+  proxy.velocity = pose.velocity;
+  proxy.spin = pose.spin;
+  proxy.orientation = pose.orientation;
+}
+
+double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift) {
+  return (proxy.velocity - drift).norm() + proxy.spin.norm() * proxy.reach();
+}
+
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
+                 std::vector<RigidState>& states) {
+  states.assign(proxies.size(), {});
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    RigidProxy& proxy = proxies[p];
+    RigidState& state = states[p];
+    state.key = proxy.key != 0 ? proxy.key : p + 1;
+    const auto last =
+        std::find_if(before.begin(), before.end(), [&](const RigidState& s) { return s.key == state.key; });
+    proxy.given = proxy.givenNext = proxy.surplus = 0;
+    if (last != before.end()) {
+      state.left = last->left;
+      state.moved = true;
+      state.still = !proxy.isDynamic() && proxy.velocity.isZero(0) && proxy.spin.isZero(0) &&
+                    proxy.position == last->left.position &&
+                    proxy.orientation.coeffs() == last->left.orientation.coeffs();
+      state.pressed = last->size;
+      state.surplusNext = last->surplusNext;
+      state.corners = std::move(last->corners);
+    }
+    proxy.impulse.setZero();
+    proxy.angularImpulse.setZero();
+    proxy.contactPoint.setZero();
+    proxy.contactWeight = 0;
+    proxy.touched.clear();
+  }
+}
+
+void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, double kick, double step,
+                 Books& books) {
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    RigidProxy& proxy = proxies[p];
+    const RigidState& state = states[p];
+    proxy.impulse += kick * state.force;
+    proxy.angularImpulse += kick * state.torque;
+    // What the elements and the contacts' springs get is what the rigid body does, by its own motion: a body
+    // that does not move gives nothing.
+    const auto power = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+      return 0.5 * kick * (force.dot(proxy.velocity) + torque.dot(proxy.spin));
+    };
+    const double given = -power(state.force, state.torque),
+                 lost = power(state.dampingForce, state.dampingTorque);
+    books.bullet.linear -= kick * state.force;
+    books.bullet.angular -= kick * ((proxy.position - books.centre).cross(state.force) + state.torque);
+    books.bullet.size += kick * state.size;
+    if (proxy.mobility) {
+      Eigen::Matrix<double, 6, 1> push;
+      push << state.force, state.torque;
+      for (const RigidProxy::Coupling& other : proxy.coupled) {
+        const Eigen::Matrix<double, 6, 1> moved = kick * (other.mobility * push);
+        proxies[other.proxy].velocity += moved.head<3>();
+        proxies[other.proxy].spin += moved.tail<3>();
+      }
+      push = *proxy.mobility * push;
+      proxy.velocity += kick * (push.head<3>() + proxy.acceleration);
+      proxy.spin += kick * (push.tail<3>() + proxy.angularAcceleration);
+    } else if (proxy.isDynamic()) {
+      const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
+      proxy.velocity += kick * (proxy.inverseMass * state.force + proxy.acceleration);
+      proxy.spin += kick * (turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * state.torque)) +
+                            proxy.angularAcceleration);
+    }
+    const double givenNext = -power(state.force, state.torque);
+    books.bullet.work.add(given, givenNext);
+    proxy.given += given + givenNext;
+    proxy.givenNext = givenNext;
+    proxy.surplus -= given;
+    states[p].surplusNext -= givenNext;
+    books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
+    proxy.position += step * proxy.velocity;
+    const double angle = proxy.spin.norm() * step;
+    if (angle > 0)
+      proxy.orientation =
+          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
+              .normalized();
+    states[p].left = poseOf(proxy);
+  }
+}
+
+}  // namespace rubble::edem

@@ -1,0 +1,28 @@
+// How the copies of the host's rigid bodies come into a tick and move through its substeps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "edem/books.h"
+#include "edem/rigid_contact.h"
+#include "edem/rigid_proxy.h"
+
+namespace rubble::edem {
+
+RigidPose poseOf(const RigidProxy& proxy);
+void setPose(RigidProxy& proxy, const RigidPose& pose);
+/// Of its surface, beside a drift [m/s].
+double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift);
+
+/// Makes the proxies of a new tick ready to collect. `states` becomes theirs: what their contacts remember is
+/// taken from `before`, that of the last tick, by their keys.
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
+                 std::vector<RigidState>& states);
+
+/// Moves the proxies (symplectic Euler) by the forces in their states and books what passed between them and
+/// the elements.
+void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, double kick, double step,
+                 Books& books);
+
+}  // namespace rubble::edem
