@@ -12,9 +12,9 @@
 namespace rubble::test {
 namespace {
 
-constexpr double kRate = 240, kEdge = 0.1, kTall = 0.4, kWide = 0.2;  // [Hz], [m]
-constexpr double kDamping = 20;  // of the deformation, whose slow modes would ring for seconds [1/s]
-constexpr double kFoot = 3;      // of the block, above the ground [m]
+constexpr double kBlockRate = 240, kBlockEdge = 0.1, kBlockTall = 0.4, kBlockWide = 0.2;  // [Hz], [m]
+constexpr double kBlockDamping = 20;  // of the deformation, whose slow modes would ring for seconds [1/s]
+constexpr double kBlockFoot = 3;      // of the block, above the ground [m]
 
 btTransform poseAt(const Eigen::Vector3d& place, double angle = 0) {
   return btTransform(btQuaternion({0, 1, 0}, btScalar(angle)),
@@ -25,19 +25,20 @@ btTransform poseAt(const Eigen::Vector3d& place, double angle = 0) {
 struct CarriedBlock : BulletWorld {
   explicit CarriedBlock(const btVector3& gravity = {0, 0, 0}, const Material& material = soft(),
                         const Eigen::Vector3d& from = {0, 0, 0}, Precision precision = Precision::Float,
-                        double damping = kDamping)
+                        double damping = kBlockDamping)
       : BulletWorld(quiet(precision)) {
     world.setGravity(gravity);
-    base = add(0, baseShape, {0, btScalar(kFoot - 0.09), 0});
+    base = add(0, baseShape, {0, btScalar(kBlockFoot - 0.09), 0});
     base->setCollisionFlags(base->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     base->setActivationState(DISABLE_DEACTIVATION);
     base->setInterpolationWorldTransform(base->getWorldTransform());
-    def.asset = std::make_shared<const Asset>(gridAsset({.cubes = {2, 4, 2},
-                                                         .edge = kEdge,
-                                                         .origin = {-kWide / 2 + from.x(), 0, -kWide / 2},
-                                                         .anchored = true}));
+    def.asset =
+        std::make_shared<const Asset>(gridAsset({.cubes = {2, 4, 2},
+                                                 .edge = kBlockEdge,
+                                                 .origin = {-kBlockWide / 2 + from.x(), 0, -kBlockWide / 2},
+                                                 .anchored = true}));
     def.material = material;
-    def.transform.setOrigin({0, btScalar(kFoot), 0});
+    def.transform.setOrigin({0, btScalar(kBlockFoot), 0});
     def.anchorBody = base;
     def.massDamping = damping;
     block = destruction->addBody(def);
@@ -49,12 +50,12 @@ struct CarriedBlock : BulletWorld {
     return d;
   }
   static Material soft() { return rubble::material("concrete_soft"); }
-  Eigen::Vector3d baseAt() const { return Eigen::Vector3d(0, kFoot - 0.09, 0); }
+  Eigen::Vector3d baseAt() const { return Eigen::Vector3d(0, kBlockFoot - 0.09, 0); }
 
   /// The application puts the base somewhere `ticks` times in a row, the world follows.
   void step(const btTransform& pose, int ticksACall = 1) {
     base->setWorldTransform(pose);
-    world.stepSimulation(btScalar(ticksACall / kRate), ticksACall, btScalar(1 / kRate));
+    world.stepSimulation(btScalar(ticksACall / kBlockRate), ticksACall, btScalar(1 / kBlockRate));
   }
   /// Furthest element from where the base would have it, were the block stiff [m].
   double furthest(const Eigen::Isometry3d& by) const {
@@ -88,13 +89,14 @@ TEST(AnchorBody, ABlockFollowsAtConstantSpeed) {
   const double v = 0.3, c = std::sqrt(w.def.material.youngsModulus / w.def.material.density);
   double most = 0;
   for (int tick = 1; tick <= 240; ++tick) {
-    const Eigen::Vector3d way(0, v * tick / kRate, 0);
+    const Eigen::Vector3d way(0, v * tick / kBlockRate, 0);
     w.step(poseAt(w.baseAt() + way));
     most = std::max(most, w.furthest(way));
   }
-  EXPECT_LT(most, 2 * v * kTall / c + 1e-6);
-  EXPECT_GT(most, 0.1 * v * kTall / c) << "it is not stiff";
-  EXPECT_LT(w.furthest(Eigen::Vector3d(0, v, 0)), 0.05 * v * kTall / c) << "and comes to rest in the base";
+  EXPECT_LT(most, 2 * v * kBlockTall / c + 1e-6);
+  EXPECT_GT(most, 0.1 * v * kBlockTall / c) << "it is not stiff";
+  EXPECT_LT(w.furthest(Eigen::Vector3d(0, v, 0)), 0.05 * v * kBlockTall / c)
+      << "and comes to rest in the base";
   const double mass = w.block->elementMass(), kinetic = 0.5 * mass * v * v;
   EXPECT_NEAR(double(w.block->linearMomentum().y()), mass * v, 1e-3 * mass * v);
   EXPECT_NEAR(w.destruction->ledger().kinetic, kinetic, 2e-3 * kinetic);
@@ -109,11 +111,11 @@ TEST(AnchorBody, TheBaseGivesTheEnergy) {
     CarriedBlock w({0, 0, 0}, CarriedBlock::soft(), {0.5, 0, 0}, precision, 0);
     double way = 0;  // half a metre and a radian a second, in a quarter of a second
     for (int tick = 1; tick <= 120; ++tick) {
-      way += std::min(1.0, tick / kRate / 0.25) / kRate;
+      way += std::min(1.0, tick / kBlockRate / 0.25) / kBlockRate;
       w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, 0.5 * way, 0), way));
     }
     const Ledger& ledger = w.destruction->ledger();
-    const double mass = w.block->elementMass(), inertia = mass * (0.5 * 0.5 + kWide * kWide / 6),
+    const double mass = w.block->elementMass(), inertia = mass * (0.5 * 0.5 + kBlockWide * kBlockWide / 6),
                  kinetic = 0.5 * (mass * 0.5 * 0.5 + inertia);
     EXPECT_NEAR(ledger.kinetic, kinetic, 0.02 * kinetic);  // it rings
     EXPECT_GT(ledger.dissipated, 0);
@@ -130,14 +132,14 @@ TEST(AnchorBody, TheBaseGivesTheEnergy) {
 TEST(AnchorBody, ABlockFollowsOnATurningTable) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     CarriedBlock w({0, 0, 0}, CarriedBlock::soft(), {0.5, 0, 0}, precision);
-    const double rate = 2, within = 0.5, radius = 0.5 + kWide;
+    const double rate = 2, within = 0.5, radius = 0.5 + kBlockWide;
     const double acceleration = radius * (rate / within + rate * rate), E = w.def.material.youngsModulus;
-    const double sag =
-        acceleration * w.def.material.density *
-        (1.5 * std::pow(kTall, 4) / (E * kWide * kWide) + kTall * kTall / (2 * 5.0 / 6 * 0.4 * E));
+    const double sag = acceleration * w.def.material.density *
+                       (1.5 * std::pow(kBlockTall, 4) / (E * kBlockWide * kBlockWide) +
+                        kBlockTall * kBlockTall / (2 * 5.0 / 6 * 0.4 * E));
     double most = 0, angle = 0;
     for (int tick = 1; tick <= 480; ++tick) {
-      const double t = tick / kRate;
+      const double t = tick / kBlockRate;
       angle = t < within ? rate * t * t / (2 * within) : rate * (t - 0.5 * within);
       w.step(poseAt(w.baseAt(), angle));
       most =
@@ -145,7 +147,7 @@ TEST(AnchorBody, ABlockFollowsOnATurningTable) {
     }
     EXPECT_LT(most, 2 * sag + 1e-6) << sag;
     const double mass = w.block->elementMass();
-    const double inertia = mass * (0.5 * 0.5 + kWide * kWide / 6);
+    const double inertia = mass * (0.5 * 0.5 + kBlockWide * kBlockWide / 6);
     EXPECT_NEAR(w.destruction->ledger().kinetic, 0.5 * inertia * rate * rate, 2e-3 * inertia * rate * rate);
     EXPECT_NEAR(double(w.block->getAngularVelocity().y()), rate, 1e-3 * rate);
     EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
@@ -159,14 +161,15 @@ TEST(AnchorBody, ItsWayIsSpreadOverTheTicksOfACall) {
   const double a = 2;
   double most = 0;
   for (int call = 1; call <= 60; ++call) {
-    const double t = 4 * call / kRate;
+    const double t = 4 * call / kBlockRate;
     const Eigen::Vector3d way(0, a / 2 * t * t, 0);
     w.step(poseAt(w.baseAt() + way), 4);
     most = std::max(most, w.furthest(way));
   }
-  // Its velocity goes by steps of a * 4 / kRate, within a tick each: 2 x as in ABlockFollowsAtConstantSpeed.
+  // Its velocity goes by steps of a * 4 / kBlockRate, within a tick each: 2 x as in
+  // ABlockFollowsAtConstantSpeed.
   const double c = std::sqrt(w.def.material.youngsModulus / w.def.material.density);
-  EXPECT_LT(most, 2 * a * 4 / kRate * kTall / c + 1e-6);
+  EXPECT_LT(most, 2 * a * 4 / kBlockRate * kBlockTall / c + 1e-6);
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
   w.expectClosed();
 }
@@ -176,10 +179,10 @@ TEST(AnchorBody, AnchorsBreakWhenTheBaseIsFasterThanTheyHold) {
   Material weak = CarriedBlock::soft();
   weak.tensileStrength = 2e4;
   CarriedBlock w({0, 0, 0}, weak);
-  const double jerk = 80, holds = weak.tensileStrength * kWide * kWide / w.block->elementMass();
+  const double jerk = 80, holds = weak.tensileStrength * kBlockWide * kBlockWide / w.block->elementMass();
   double broke = 0;
   for (int tick = 1; broke == 0 && tick <= 240; ++tick) {
-    const double t = tick / kRate;
+    const double t = tick / kBlockRate;
     w.step(poseAt(w.baseAt() - Eigen::Vector3d(0, jerk / 6 * t * t * t, 0)));
     if (w.destruction->counts().springsBroken > 0) broke = jerk * t;
   }
@@ -197,12 +200,13 @@ TEST(AnchorBody, AnchorsHoldAtNineTenthsOfThat) {
   Material weak = CarriedBlock::soft();
   weak.tensileStrength = 2e4;
   CarriedBlock w({0, 0, 0}, weak);
-  const double most = 0.9 * weak.tensileStrength * kWide * kWide / w.block->elementMass(), ramp = 0.25;
+  const double most = 0.9 * weak.tensileStrength * kBlockWide * kBlockWide / w.block->elementMass(),
+               ramp = 0.25;
   double place = 0, speed = 0;
   for (int tick = 1; tick <= 120; ++tick) {
-    const double a = most * std::min(1.0, tick / kRate / ramp);
-    speed += a / kRate;
-    place += speed / kRate;
+    const double a = most * std::min(1.0, tick / kBlockRate / ramp);
+    speed += a / kBlockRate;
+    place += speed / kBlockRate;
     w.step(poseAt(w.baseAt() - Eigen::Vector3d(0, place, 0)));
   }
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
@@ -236,16 +240,16 @@ TEST(AnchorBody, WhatHasBrokenLooseLiesOnTheBase) {
   double place = 0, speed = 0;
   int tick = 0;
   for (; tick < 240 && w.destruction->counts().springsBroken < 4; ++tick) {
-    speed += 80.0 * tick / kRate / kRate;
-    place += speed / kRate;
+    speed += 80.0 * tick / kBlockRate / kBlockRate;
+    place += speed / kBlockRate;
     w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, place, 0)));
-    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, place -= speed / kRate, 0)));
+    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, place -= speed / kBlockRate, 0)));
   }
   ASSERT_LT(tick, 240);
   for (tick = 0; tick < 480; ++tick) w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, place, 0)));
   double lowest = 1e9;
   for (const ElementPose& e : posesOf(*w.block)) lowest = std::min(lowest, double(e.position.y()));
-  EXPECT_GT(lowest - place, kFoot + 0.01 + 0.4 * kEdge);
+  EXPECT_GT(lowest - place, kBlockFoot + 0.01 + 0.4 * kBlockEdge);
   EXPECT_EQ(w.destruction->failure(), "");
 }
 
@@ -257,7 +261,7 @@ TEST(AnchorBody, ItSleepsOnWhatStandsAndWakesWithIt) {
   EXPECT_LT(w.furthest(Eigen::Vector3d::Zero()), 1e-6);
   EXPECT_EQ(w.destruction->counts().awake, 0u);
   for (int tick = 1; tick <= 480; ++tick) {
-    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0.005 * tick / kRate, 0, 0)));
+    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0.005 * tick / kBlockRate, 0, 0)));
     ASSERT_EQ(w.destruction->counts().awake, w.rest.size());
   }
   EXPECT_LT(w.furthest(Eigen::Vector3d(0.01, 0, 0)), 1e-5);
@@ -271,17 +275,18 @@ TEST(AnchorBody, WithoutItsBaseItStaysWhereItIs) {
   CarriedBlock w({0, btScalar(-9.81), 0});
   Eigen::Vector3d way(0, 0, 0);
   for (int tick = 1; tick <= 60; ++tick) {
-    way.x() = 0.05 * tick / kRate;
+    way.x() = 0.05 * tick / kBlockRate;
     w.step(poseAt(w.baseAt() + way));
   }
   w.world.removeRigidBody(w.base);
   delete w.base;
-  for (int tick = 0; tick < 240; ++tick) w.world.stepSimulation(btScalar(1 / kRate), 1, btScalar(1 / kRate));
+  for (int tick = 0; tick < 240; ++tick)
+    w.world.stepSimulation(btScalar(1 / kBlockRate), 1, btScalar(1 / kBlockRate));
   EXPECT_LT(w.furthest(way), 1e-4);
   w.base = w.add(0, w.baseShape, {5, 5, 5});
   w.base->setCollisionFlags(w.base->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
   w.destruction->setAnchorBody(w.block, w.base);
-  for (int tick = 1; tick <= 240; ++tick) w.step(poseAt(Eigen::Vector3d(5, 5 + 0.1 * tick / kRate, 5)));
+  for (int tick = 1; tick <= 240; ++tick) w.step(poseAt(Eigen::Vector3d(5, 5 + 0.1 * tick / kBlockRate, 5)));
   EXPECT_LT(w.furthest(way + Eigen::Vector3d(0, 0.1, 0)), 1e-4);
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
   w.expectClosed(3e-3);
@@ -295,7 +300,7 @@ TEST(AnchorBody, APlaceOfItsOwnIsKeptBesideTheBase) {
   at.getOrigin() += btVector3(btScalar(0.3), 0, 0);
   w.block->setWorldTransform(at);
   for (int tick = 1; tick <= 120; ++tick)
-    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, 0.1 * tick / kRate, 0)));
+    w.step(poseAt(w.baseAt() + Eigen::Vector3d(0, 0.1 * tick / kBlockRate, 0)));
   EXPECT_LT(w.furthest(Eigen::Vector3d(0.3, 0.05, 0)), 1e-5);
   w.expectClosed(3e-3);
 }
@@ -303,7 +308,7 @@ TEST(AnchorBody, APlaceOfItsOwnIsKeptBesideTheBase) {
 TEST(AnchorBody, ItStaysElementsInAnyRegime) {
   CarriedBlock w;
   w.def.regime = Regime::RigidUntilStruck;
-  w.def.transform.setOrigin({0, btScalar(kFoot), btScalar(0.25)});
+  w.def.transform.setOrigin({0, btScalar(kBlockFoot), btScalar(0.25)});
   DestructibleBody* other = w.destruction->addBody(w.def);
   for (int tick = 0; tick < 240; ++tick) w.step(poseAt(w.baseAt()));
   EXPECT_FALSE(other->isWhole());
