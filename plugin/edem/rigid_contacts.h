@@ -74,6 +74,9 @@ class RigidContacts {
 
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
+  /// Highest frequency^2 of a rigid body on all that is near it, of those that come fast enough for a blow
+  /// [1/s^2].
+  double blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const;
   /// Shortest time in which a sphere that moves at `speed` is through a rigid body that it is near [s].
   double shortestPass(Bodies bodies, std::span<const Drift> drifts, double speed) const;
   std::span<const RigidProxy> proxies() const { return m_proxies; }

@@ -40,14 +40,13 @@ void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bo
   }
 }
 
-template <class Real>
-double StepLength<Real>::resolving() const {
-  return m_contact2 > 0 ? kContactPhase / std::sqrt(m_contact2) : std::numeric_limits<double>::infinity();
+double blowStep(double frequency2) {
+  return frequency2 > 0 ? kContactPhase / std::sqrt(frequency2) : std::numeric_limits<double>::infinity();
 }
 
 template <class Real>
-double StepLength<Real>::resolvingRigid() const {
-  return m_proxy2 > 0 ? kContactPhase / std::sqrt(m_proxy2) : std::numeric_limits<double>::infinity();
+double StepLength<Real>::resolving() const {
+  return blowStep(m_contact2);
 }
 
 template <class Real>
@@ -76,7 +75,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   m_next.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) m_next[b].assign(m_rates[b].size(), {});
   m_bound = {};
-  m_contact2 = m_proxy2 = 0;
+  m_contact2 = 0;
   m_stiffest = 0;
   for (const PairList<Real>& l : lists.lists()) {
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
@@ -122,7 +121,6 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   rigid.soften(m_bound.frequency2);
   rigid.visitProxyRates([&](std::uint32_t place, std::uint32_t i, const ElementRates& proxy) {
     add(place, m_rates[place][i], proxy);
-    m_proxy2 = std::max(m_proxy2, proxy.stiffness);
   });
 }
 

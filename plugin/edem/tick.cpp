@@ -109,7 +109,8 @@ double longestStep(World<Real>& w, double dt) {
     return std::min({dt, stable, shortest});
   }
   // A blow on all that is near is followed as well as the substeps allow: it may be on less.
-  return std::min({dt, stable, travel, std::max(w.stepLength.resolvingRigid(), shortest)});
+  const double blow = blowStep(w.rigid.blowFrequency2(w.bodies, w.drifts.proxies));
+  return std::min({dt, stable, travel, std::max(blow, shortest)});
 }
 
 template <class Real>
