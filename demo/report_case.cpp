@@ -8,8 +8,8 @@ namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
   static const std::vector<ReportCase> cases = {
-      cantileverCase(), bounceCase(),   freeSpinCase(), slideCase(),      hungCase(),
-      waveCase(),       strengthCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
+      cantileverCase(), bounceCase(),      freeSpinCase(), slideCase(),      hungCase(),          waveCase(),
+      strengthCase(),   springBreakCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
   return cases;
 }
 

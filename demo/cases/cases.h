@@ -14,6 +14,7 @@ ReportCase slideCase();
 ReportCase hungCase();
 ReportCase waveCase();
 ReportCase strengthCase();
+ReportCase springBreakCase();
 ReportCase wallBlowCase();
 ReportCase columnBlowCase();
 ReportCase twoFragileBlowCase();
@@ -42,5 +43,16 @@ double waveSeconds(double length, double density, double modulus);
 
 /// Force at which a bar parts that is pulled along [N]. [Pa], [m^2].
 double partingForce(double strength, double area);
+
+/// Shear strength c without pressure of a material of Mohr and Coulomb's law that is as strong as asked in
+/// tension and in compression: their circles touch it [Pa].
+double cohesionOf(double tensileStrength, double compressiveStrength);
+
+/// Moment at which a beam of square section of that edge [m] reaches a tensile strength at its side [N m].
+double squareBendingMoment(double strength, double edge);
+
+/// Torque at which a square bar reaches a shear strength in the middle of its sides [N m]: Timoshenko and
+/// Goodier, Theory of Elasticity, 3rd ed., 1970, article 109.
+double squareTwistingMoment(double strength, double edge);
 
 }  // namespace rubble::demo
