@@ -7,9 +7,10 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {
-      cantileverCase(), bounceCase(),      freeSpinCase(), slideCase(),      hungCase(),          waveCase(),
-      strengthCase(),   springBreakCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
+  static const std::vector<ReportCase> cases = {cantileverCase(), supportedBeamCase(), bounceCase(),
+                                                freeSpinCase(),   slideCase(),         hungCase(),
+                                                waveCase(),       strengthCase(),      springBreakCase(),
+                                                wallBlowCase(),   columnBlowCase(),    twoFragileBlowCase()};
   return cases;
 }
 

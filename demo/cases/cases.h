@@ -8,6 +8,7 @@
 namespace rubble::demo {
 
 ReportCase cantileverCase();
+ReportCase supportedBeamCase();
 ReportCase bounceCase();
 ReportCase freeSpinCase();
 ReportCase slideCase();
@@ -23,6 +24,20 @@ ReportCase twoFragileBlowCase();
 /// Timoshenko's theory of beams (Strength of Materials I), for a lattice of Poisson's ratio 0: shear modulus
 /// E / 2, shear coefficient 5 / 6. Lengths in metres, density in kg/m^3, modulus in Pa, gravity in m/s^2.
 double timoshenkoSag(double length, double height, double x, double density, double modulus, double gravity);
+
+/// On two bars under its ends, of square section [m].
+struct SupportedBeam {
+  double length, height, span;
+};
+
+/// Its sag at the distance x from its middle below what lies over the bars [m], |x| <= span / 2, by the same
+/// theory; what stands over beyond the bars bends it back. Units as of timoshenkoSag.
+double supportedSag(const SupportedBeam& beam, double x, double density, double modulus, double gravity);
+
+/// Longest period of such a cantilever [s], by the frequency equation of Timoshenko's beam: Huang, The effect
+/// of rotatory inertia and of shear deformation on the frequency and normal mode equations of uniform beams
+/// with simple end conditions, J. Appl. Mech. 28, 1961. Units as of timoshenkoSag.
+double timoshenkoPeriod(double length, double height, double density, double modulus);
 
 /// How long a mass on a spring that only pushes touches it [s]: half a period. [kg], [N/m].
 double springContactSeconds(double mass, double stiffness);

@@ -2,6 +2,7 @@
 // way, and what the default settings keep of them. No time is asserted.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -74,6 +75,56 @@ TEST(SpringBreakCase, TheElementsKeepTheClosedFormsAndABreakingImpulseOnlyThatOf
     ++bullet;
   }
   EXPECT_EQ(bullet, 12);
+}
+
+// The curvature M / (E I) of what the cut holds, load and one bar, summed twice from the middle; shear adds
+// V / (k G A).
+TEST(BeamCase, TheSagIsTheSumOfTheCurvatures) {
+  constexpr demo::SupportedBeam kBeam{1.3, 0.1, 1.1};
+  constexpr double kDensity = 2000, kModulus = 1e8, kGravity = 9;
+  constexpr int kSlices = 100000;
+  const double area = kBeam.height * kBeam.height, q = kDensity * kGravity * area;
+  const double bending = kModulus * area * area / 12, shear = 5.0 / 6 * kModulus / 2 * area;
+  double slope = 0, rise = 0;
+  const double step = kBeam.span / 2 / kSlices;
+  for (int i = 0; i < kSlices; ++i) {
+    const double x = step * (i + 0.5), beyond = kBeam.length / 2 - x;
+    const double moment = q * kBeam.length / 2 * (kBeam.span / 2 - x) - q * beyond * beyond / 2;
+    slope += step * moment / bending;
+    rise += step * (slope - step * moment / bending / 2 + q * x / shear);
+  }
+  EXPECT_NEAR(demo::supportedSag(kBeam, 0, kDensity, kModulus, kGravity), rise, 1e-8 * rise);
+  EXPECT_NEAR(demo::supportedSag(kBeam, kBeam.span / 2, kDensity, kModulus, kGravity), 0, 1e-15);
+}
+
+// The slowest swing of a row of rigid discs from a wall, each with its mass and moment of inertia, on springs
+// of k G A / a across and E I / a in bending: their eigenvalues.
+TEST(BeamCase, ThePeriodIsThatOfARowOfDiscsOnSprings) {
+  constexpr double kLength = 1.3, kHeight = 0.2, kDensity = 2000, kModulus = 1e8;
+  constexpr int kDiscs = 200;
+  const double a = kLength / kDiscs, area = kHeight * kHeight, second = area * area / 12;
+  const double across = 5.0 / 6 * kModulus / 2 * area / a, bending = kModulus * second / a;
+  // Places and slopes of the discs; the first is in the wall, the last is half a disc.
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * kDiscs + 2, 2 * kDiscs + 2);
+  Eigen::VectorXd mass(2 * kDiscs + 2);
+  for (int i = 0; i <= kDiscs; ++i) {
+    const double share = i == kDiscs ? 0.5 : 1;
+    mass[2 * i] = share * kDensity * area * a;
+    mass[2 * i + 1] = share * kDensity * second * a;
+    if (i == kDiscs) break;
+    const Eigen::Vector4d gap(-1, -a / 2, 1, -a / 2), turn(0, -1, 0, 1);
+    stiffness.block<4, 4>(2 * i, 2 * i) += across * gap * gap.transpose() + bending * turn * turn.transpose();
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      stiffness.bottomRightCorner(2 * kDiscs, 2 * kDiscs), mass.tail(2 * kDiscs).asDiagonal().toDenseMatrix(),
+      Eigen::EigenvaluesOnly);
+  const double period = 2 * kPi / std::sqrt(modes.eigenvalues()[0]);
+  EXPECT_NEAR(demo::timoshenkoPeriod(kLength, kHeight, kDensity, kModulus), period, 1e-4 * period);
+}
+
+// Two elements through the height: 2 % is what is promised of the stiffness of a packing.
+TEST(BeamCase, TheElementsKeepTheClosedForms) {
+  EXPECT_EQ(expectStandardErrorsBelow(demo::supportedBeamCase(), 0.02), 2);
 }
 
 }  // namespace
