@@ -7,10 +7,13 @@
 namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
-  static const std::vector<ReportCase> cases = {cantileverCase(), supportedBeamCase(), bounceCase(),
-                                                freeSpinCase(),   slideCase(),         hungCase(),
-                                                waveCase(),       strengthCase(),      springBreakCase(),
-                                                wallBlowCase(),   columnBlowCase(),    twoFragileBlowCase()};
+  static const std::vector<ReportCase> cases = {
+      cantileverCase(),    supportedBeamCase(),   bounceCase(),
+      freeSpinCase(),      slideCase(),           hungCase(),
+      waveCase(),          strengthCase(),        springBreakCase(),
+      dustRotationCase(),  dustTaylorGreenCase(), dustDivergenceCase(),
+      dustPlumeCase(),     wallBlowCase(),        columnBlowCase(),
+      twoFragileBlowCase()};
   return cases;
 }
 

@@ -16,6 +16,10 @@ ReportCase hungCase();
 ReportCase waveCase();
 ReportCase strengthCase();
 ReportCase springBreakCase();
+ReportCase dustRotationCase();
+ReportCase dustTaylorGreenCase();
+ReportCase dustDivergenceCase();
+ReportCase dustPlumeCase();
 ReportCase wallBlowCase();
 ReportCase columnBlowCase();
 ReportCase twoFragileBlowCase();
@@ -69,5 +73,12 @@ double squareBendingMoment(double strength, double edge);
 /// Torque at which a square bar reaches a shear strength in the middle of its sides [N m]: Timoshenko and
 /// Goodier, Theory of Elasticity, 3rd ed., 1970, article 109.
 double squareTwistingMoment(double strength, double edge);
+
+/// What is left of the velocity of Taylor and Green's vortex in a plane. [m^2/s], [1/m], [s].
+double taylorGreenDecay(double viscosity, double wave, double seconds);
+
+/// Of a ball of air that carries `load` of its weight in dust, as it is let go in still air, under
+/// Boussinesq's law: the dust weighs, and is not moved as mass [m/s^2].
+double ladenBallAcceleration(double load, double gravity);
 
 }  // namespace rubble::demo

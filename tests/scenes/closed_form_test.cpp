@@ -127,5 +127,63 @@ TEST(BeamCase, TheElementsKeepTheClosedForms) {
   EXPECT_EQ(expectStandardErrorsBelow(demo::supportedBeamCase(), 0.02), 2);
 }
 
+// du/dt = nu laplace(u) in small steps, the Laplacian of sin(k x) cos(k z) by differences.
+TEST(DustTaylorGreenCase, TheDecayIsThatOfDiffusion) {
+  constexpr double kViscosity = 0.01, kWave = 3, kSeconds = 2, kX = 0.2, kZ = 0.3, kGap = 1e-3;
+  const auto u = [](double x, double z) { return std::sin(kWave * x) * std::cos(kWave * z); };
+  const double laplacian =
+      (u(kX + kGap, kZ) + u(kX - kGap, kZ) + u(kX, kZ + kGap) + u(kX, kZ - kGap) - 4 * u(kX, kZ)) /
+      (kGap * kGap);
+  constexpr int kSteps = 100000;
+  double left = 1;
+  for (int i = 0; i < kSteps; ++i) left += kSeconds / kSteps * kViscosity * left * laplacian / u(kX, kZ);
+  EXPECT_NEAR(demo::taylorGreenDecay(kViscosity, kWave, kSeconds), left, 1e-5);
+}
+
+// Of the energy of the flow: of the ball, and of the dipole outside, |u| = v (R / r)^3 sqrt(1 + 3 cos^2) / 2,
+// summed over shells, where the mean of cos^2 is 1 / 3. Weight over twice the energy over v^2.
+TEST(DustPlumeCase, TheAddedMassIsThatOfTheDipoleOutside) {
+  constexpr int kShells = 1'000'000;
+  double outside = 0;  // twice its energy, over the mass of the ball times v^2
+  for (int i = 0; i < kShells; ++i) {
+    const double s = (i + 0.5) / kShells;  // R / r, from 0 at infinity to 1
+    outside += 3 / std::pow(s, 4) * std::pow(s, 6) * (1 + 3.0 / 3) / 4 / kShells;
+  }
+  EXPECT_NEAR(demo::ladenBallAcceleration(0.1, 10), 0.1 * 10 / (1 + outside), 1e-6);
+}
+
+// A factor of 5 a cycle, as in tests/unit/dust/pressure_test.cpp, three of them. The ball is 6.4 cells in
+// radius, of which half a cell of its rim is blurred: a tenth.
+TEST(DustCases, TheGridKeepsTheClosedForms) {
+  EXPECT_EQ(expectStandardErrorsBelow(demo::dustDivergenceCase(), 1.0 / 125), 2);
+  EXPECT_EQ(expectStandardErrorsBelow(demo::dustPlumeCase(), 0.1), 1);
+}
+
+double errorOf(const demo::ReportCase& c, const std::string& method, const std::string& setting) {
+  for (const demo::CaseRun& run : c.runs)
+    if (run.method == method && run.setting == setting) return run.run().error;
+  ADD_FAILURE() << c.name << " has no " << method << ", " << setting;
+  return HUGE_VAL;
+}
+
+// The splitting of a step is of first order: a quarter of the step, a quarter of the loss.
+TEST(DustTaylorGreenCase, TheVortexLosesEnergyAsTheStepIsLong) {
+  const demo::ReportCase c = demo::dustTaylorGreenCase();
+  const double slow = errorOf(c, "energy, confinement 0, 60 Hz", "32^3 cells"),
+               quick = errorOf(c, "energy, confinement 0, 240 Hz", "32^3 cells");
+  EXPECT_LT(slow, 0.06);
+  EXPECT_NEAR(quick / slow, 0.25, 0.1);
+}
+
+// The bell is 1.2, 2.4 and 4.8 cells wide: half the cell leaves at most half of the error once it is
+// resolved.
+TEST(DustRotationCase, TheDustsErrorFallsWithTheCell) {
+  const demo::ReportCase c = demo::dustRotationCase();
+  const double coarse = errorOf(c, "dust, 60 Hz", "32^3 cells"),
+               fine = errorOf(c, "dust, 60 Hz", "64^3 cells");
+  EXPECT_LT(fine, coarse / 2);
+  EXPECT_LT(fine, 0.2);
+}
+
 }  // namespace
 }  // namespace rubble::test
