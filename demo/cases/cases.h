@@ -12,10 +12,14 @@ ReportCase supportedBeamCase();
 ReportCase bounceCase();
 ReportCase freeSpinCase();
 ReportCase slideCase();
+ReportCase rollCase();
 ReportCase hungCase();
 ReportCase waveCase();
 ReportCase strengthCase();
 ReportCase springBreakCase();
+ReportCase crushCase();
+ReportCase debrisFallCase();
+ReportCase sieveCase();
 ReportCase dustRotationCase();
 ReportCase dustTaylorGreenCase();
 ReportCase dustDivergenceCase();
@@ -80,5 +84,17 @@ double taylorGreenDecay(double viscosity, double wave, double seconds);
 /// Of a ball of air that carries `load` of its weight in dust, as it is let go in still air, under
 /// Boussinesq's law: the dust weighs, and is not moved as mass [m/s^2].
 double ladenBallAcceleration(double load, double gravity);
+
+/// Of a full sphere that rolls down a slope [rad] without slipping [m/s^2].
+double rollingAcceleration(double gravity, double slope);
+
+/// Terminal speed of a fine grain by Stokes' law, buoyancy left out [m/s]. [m], [kg/m^3], [m/s^2], [Pa s].
+double stokesSpeed(double radius, double density, double gravity, double viscosity);
+
+/// How far a thing has fallen from rest under a drag that goes with the square of its speed [m].
+double fallenWay(double terminalSpeed, double gravity, double seconds);
+
+/// Share of the mass in grains up to `radius` by Gaudin and Schuhmann's law. [m], dimensionless, [m].
+double sievedShare(double maxRadius, double modulus, double radius);
 
 }  // namespace rubble::demo
