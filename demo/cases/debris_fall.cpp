@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDensity = 2400, kGravity = 9.81;   // [kg/m^3], [m/s^2]
 constexpr double kGrain = 1e-6, kStone = 0.02;       // radii [m]
-constexpr double kGrainSeconds = 0.5, kSeconds = 3;  // the stone has 0.78 of its terminal speed then
+constexpr double kGrainSeconds = 0.5, kSeconds = 3;  // the stone has half of its terminal speed then
 constexpr std::uint32_t kPieces = 1000;              // alike: what one costs is too little to time
 constexpr double kDragCoefficient = 0.44;            // of the stone, at Reynolds numbers above 1000
 

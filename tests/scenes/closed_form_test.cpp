@@ -147,9 +147,11 @@ TEST(RollCase, TheSphereIsTurnedByTheFrictionThatSlowsIt) {
   EXPECT_NEAR(demo::rollingAcceleration(kGravity, kSlope), kGravity * std::sin(kSlope) - low, 1e-12);
 }
 
-// Half a tick of 240 Hz of 1 s is 0.4 % of the way, by Bullet's step of the ball; the slab yields by 0.1 mm.
-TEST(RollCase, TheSlabKeepsTheClosedForm) {
-  EXPECT_EQ(expectStandardErrorsBelow(demo::rollCase(), 0.01), 1);
+// A soft slab yields and holds the ball a little; ten times stiffer, less than a fifth of that is left.
+TEST(RollCase, TheSlabKeepsTheClosedFormAsItIsStiff) {
+  const demo::ReportCase c = demo::rollCase();
+  EXPECT_EQ(expectStandardErrorsBelow(c, 0.005), 1);
+  EXPECT_LT(errorOf(c, "elements, float, E 300 MPa", "240 Hz, substep_safety 0.9"), 0.001);
 }
 
 // As tests/physics/strength_long_test.cpp and plate_strength_test.cpp have it, of the smallest cube alone:
