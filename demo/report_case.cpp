@@ -8,8 +8,10 @@ namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
   static const std::vector<ReportCase> cases = {
-      cantileverCase(), bounceCase(),   freeSpinCase(), slideCase(),      hungCase(),
-      waveCase(),       strengthCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
+      cantileverCase(),     supportedBeamCase(), bounceCase(),   freeSpinCase(),     slideCase(),
+      rollCase(),           hungCase(),          waveCase(),     strengthCase(),     springBreakCase(),
+      crushCase(),          debrisFallCase(),    sieveCase(),    dustRotationCase(), dustTaylorGreenCase(),
+      dustDivergenceCase(), dustPlumeCase(),     wallBlowCase(), columnBlowCase(),   twoFragileBlowCase()};
   return cases;
 }
 

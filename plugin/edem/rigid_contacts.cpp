@@ -68,7 +68,21 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
 
 template <class Real>
 void RigidContacts<Real>::soften(double frequency2) {
-  for (std::size_t p = 0; p < m_proxies.size(); ++p) setLaws(m_sides, m_proxies[p], frequency2, m_states[p]);
+  for (std::size_t p = 0; p < m_proxies.size(); ++p)
+    setLaws(m_sides, m_proxies[p], frequency2, m_share, m_states[p]);
+}
+
+template <class Real>
+void RigidContacts<Real>::setShare(double share) {
+  m_share = share;
+  soften(std::numeric_limits<double>::infinity());
+}
+
+template <class Real>
+double RigidContacts<Real>::elasticAwake() const {
+  double energy = 0;
+  for (const RigidContact& c : m_lists.contacts()) energy += c.memory.energy;
+  return energy;
 }
 
 // Which corners of the proxies press which elements in this substep.
