@@ -8,10 +8,11 @@ namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
   static const std::vector<ReportCase> cases = {
-      cantileverCase(),     supportedBeamCase(), bounceCase(),   freeSpinCase(),     slideCase(),
-      rollCase(),           hungCase(),          waveCase(),     strengthCase(),     springBreakCase(),
-      crushCase(),          debrisFallCase(),    sieveCase(),    dustRotationCase(), dustTaylorGreenCase(),
-      dustDivergenceCase(), dustPlumeCase(),     wallBlowCase(), columnBlowCase(),   twoFragileBlowCase()};
+      cantileverCase(),      supportedBeamCase(),  bounceCase(),     freeSpinCase(), slideCase(),
+      reposeCase(),          rollCase(),           hungCase(),       waveCase(),     strengthCase(),
+      springBreakCase(),     crushCase(),          debrisFallCase(), sieveCase(),    dustRotationCase(),
+      dustTaylorGreenCase(), dustDivergenceCase(), dustPlumeCase(),  wallBlowCase(), columnBlowCase(),
+      twoFragileBlowCase()};
   return cases;
 }
 

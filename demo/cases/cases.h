@@ -12,6 +12,7 @@ ReportCase supportedBeamCase();
 ReportCase bounceCase();
 ReportCase freeSpinCase();
 ReportCase slideCase();
+ReportCase reposeCase();
 ReportCase rollCase();
 ReportCase hungCase();
 ReportCase waveCase();
@@ -53,6 +54,10 @@ double springContactSeconds(double mass, double stiffness);
 /// Attitude of a free rigid body after that time [s], the identity at first, by Euler's equations: inertia
 /// about the centre of mass [kg m^2] and spin [rad/s] at the start.
 Eigen::Matrix3d tumbled(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& spin, double seconds);
+
+/// Of a plane that tilts at `rate` [rad/s] when what lies on it has slid by `way` [m]: it stands up to
+/// atan(friction), and then goes by g (sin a - friction cos a) [rad].
+double slidAngle(double way, double friction, double rate, double gravity);
 
 /// Of what slides on level ground under Coulomb's friction [m]. [m/s], dimensionless, [m/s^2].
 double stopDistance(double speed, double friction, double gravity);
