@@ -181,6 +181,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
                                      Books& books) {
   for (RigidState& s : m_states) {
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
+    s.anchorForce = s.anchorTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
     s.corners.beginStep();
   }
@@ -272,6 +273,24 @@ void RigidContacts<Real>::bookChange(const RigidTouch& before, const RigidTouch&
                                      Books& books) {
   books.elastic += now.energy - before.energy;
   books.fracture += before.energy - now.energy + 0.5 * kick * (before.power - now.power);
+}
+
+template <class Real>
+void RigidContacts<Real>::pull(std::uint32_t p, const Wrench& all, const Wrench& damping) {
+  RigidState& state = m_states[p];
+  state.force += all.force;
+  state.torque += all.torque;
+  state.anchorForce += all.force;
+  state.anchorTorque += all.torque;
+  state.dampingForce += damping.force;
+  state.dampingTorque += damping.torque;
+  m_proxies[p].pulled = true;
+}
+
+template <class Real>
+void RigidContacts<Real>::push(std::uint32_t p, const Wrench& impulse) {
+  pushProxy(m_proxies[p], impulse);
+  m_states[p].left = poseOf(m_proxies[p]);
 }
 
 template <class Real>

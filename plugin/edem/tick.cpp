@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "edem/anchor_ride.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
@@ -95,10 +96,11 @@ double longestStep(World<Real>& w, double dt) {
   char text[200];
   if (stable < shortest) {
     std::snprintf(text, sizeof text,
-                  "body %u: its contacts need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
+                  "body %u: its contacts%s need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
                   "maxSubstepsPerFrame is %d: raise it",
-                  w.bodies[w.stepLength.stiffest()]->id, stable, std::ceil(1.0 / 60 / stable),
-                  w.def.maxSubstepsPerFrame);
+                  w.bodies[w.stepLength.stiffest()]->id,
+                  w.bodies[w.stepLength.stiffest()]->state.base.ride.on() ? " or a light anchorBody" : "",
+                  stable, std::ceil(1.0 / 60 / stable), w.def.maxSubstepsPerFrame);
     w.failure = text;
   } else if (travel < shortest) {
     std::snprintf(text, sizeof text,
@@ -182,18 +184,30 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     moveMotions(body, kick, step, gravity);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }
-  w.rigid.integrate(w.bodies, kick, step, w.books);
   for (auto& body : w.bodies)
-    if (!body->state.asleep) moveBase(*body, kick, step, w.books);
+    if (isRiding(*body)) pullRide(*body, kick, w.rigid, w.books);
+  w.rigid.integrate(w.bodies, kick, step, w.books);
+  for (auto& body : w.bodies) {
+    if (isRiding(*body))
+      goWithRide(*body, w.rigid.proxies());
+    else if (!body->state.asleep)
+      moveBase(*body, kick, step, w.books);
+  }
   for (auto& body : w.bodies)
     if (!body->work.crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
 }
 
-// What moves with its base is not slow, however slowly that goes.
+// What moves with its base is not slow, however slowly that goes. And what a dynamic one carries is its load
+// until both sleep, which is the host's decision.
 template <class Real>
 void staysAwake(Body<Real>& body) {
-  for (const std::uint32_t i : body.work.awake)
-    if (body.state.frameOf[i] == 0) body.state.calmTime[i] = body.state.slowTime[i] = 0;
+  const bool moves = body.state.base.moves() || body.state.base.ride.moves();
+  if (!moves && !body.state.base.ride.on()) return;
+  for (const std::uint32_t i : body.work.awake) {
+    if (body.state.frameOf[i] != 0) continue;
+    body.state.calmTime[i] = 0;
+    if (moves) body.state.slowTime[i] = 0;
+  }
 }
 
 template <class Real>
@@ -208,8 +222,10 @@ void closeTick(World<Real>& w, double dt) {
   }
   for (auto& body : w.bodies) body->state.hostLoads.clear();
   for (auto& body : w.bodies)
-    if (!body->state.asleep && body->state.base.moves()) staysAwake(*body);
+    if (!body->state.asleep) staysAwake(*body);
   settle(w, dt);
+  for (auto& body : w.bodies)
+    if (isRiding(*body)) endRide(*body, w.rigid, w.books);
   for (auto& body : w.bodies) {
     if (body->state.asleep) continue;
     fitFrames(*body);
@@ -236,7 +252,8 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.stepLength.beginTick(w.bodies);
   if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
   for (auto& body : w.bodies)
-    if (body->state.base.given) beginWay(body->state.base, body->state.frames[0], dt);
+    if (body->state.base.given && !beginRide(*body, w.rigid.proxies()))
+      beginWay(body->state.base, body->state.frames[0], dt);
   for (auto& body : w.bodies)
     if (!body->state.asleep || body->work.motions.empty()) beginMotions(*body);
   w.listsStale = true;
