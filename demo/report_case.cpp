@@ -8,8 +8,11 @@ namespace rubble::demo {
 
 const std::vector<ReportCase>& reportCases() {
   static const std::vector<ReportCase> cases = {
-      cantileverCase(), bounceCase(),   freeSpinCase(), slideCase(),      hungCase(),
-      waveCase(),       strengthCase(), wallBlowCase(), columnBlowCase(), twoFragileBlowCase()};
+      cantileverCase(),      supportedBeamCase(),  bounceCase(),     freeSpinCase(), slideCase(),
+      reposeCase(),          rollCase(),           hungCase(),       waveCase(),     strengthCase(),
+      springBreakCase(),     crushCase(),          debrisFallCase(), sieveCase(),    dustRotationCase(),
+      dustTaylorGreenCase(), dustDivergenceCase(), dustPlumeCase(),  wallBlowCase(), columnBlowCase(),
+      twoFragileBlowCase()};
   return cases;
 }
 

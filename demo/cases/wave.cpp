@@ -5,6 +5,7 @@
 
 #include "demo/cases/bar.h"
 #include "demo/cases/cases.h"
+#include "demo/cases/period.h"
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
@@ -14,25 +15,17 @@ namespace {
 constexpr int kPeriods = 4;     // so many are timed
 constexpr double kSpare = 1.5;  // of the time that they and the first quarter should take
 
-// Times of the first and the last downward crossing of the static place; not finite: there were too few.
+// Not finite: there were too few crossings.
 template <class Outer>
 double periodOf(CaseWorld& world, double tick, Outer outer) {
   const double expected = 4 * waveSeconds(bar::kLength, bar::kDensity, bar::kModulus);
-  const double still = hungSink(bar::kLength, outer().depth, bar::kDensity, bar::kModulus, bar::kGravity);
-  double before = 0, first = 0;
-  int crossings = 0;
+  PeriodTimer timer(hungSink(bar::kLength, outer().depth, bar::kDensity, bar::kModulus, bar::kGravity),
+                    kPeriods);
   for (int t = 1; t * tick < kSpare * (kPeriods + 0.25) * expected; ++t) {
     world.step(tick);
-    const double now = outer().sink;
-    if (before < still && now >= still) {
-      const double time = tick * (t - (now - still) / (now - before));
-      if (crossings == 0) first = time;
-      if (crossings == kPeriods) return (time - first) / kPeriods;
-      ++crossings;
-    }
-    before = now;
+    if (timer.add(t * tick, outer().sink)) break;
   }
-  return std::nan("");
+  return timer.period();
 }
 
 double errorOf(double period) {

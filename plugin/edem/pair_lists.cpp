@@ -65,8 +65,29 @@ PairList<Real> PairLists<Real>::take(const Body<Real>& a, const Body<Real>& b, s
   list.second = placeB;
   list.firstId = a.id;
   list.secondId = b.id;
-  list.law = contactLaw(a.constants->contact, b.constants->contact).template cast<Real>();
+  list.law = lawOf(a, b);
   return list;
+}
+
+template <class Real>
+ContactLaw<Real> PairLists<Real>::lawOf(const Body<Real>& a, const Body<Real>& b) const {
+  ContactSide one = a.constants->contact, other = b.constants->contact;
+  one.stiffness *= m_share;
+  other.stiffness *= m_share;
+  return contactLaw(one, other).template cast<Real>();
+}
+
+template <class Real>
+void PairLists<Real>::soften(std::span<const std::unique_ptr<Body<Real>>> bodies, double share) {
+  m_share = share;
+  for (PairList<Real>& l : m_lists) l.law = lawOf(*bodies[l.first], *bodies[l.second]);
+}
+
+template <class Real>
+double PairLists<Real>::elasticAwake() const {
+  double energy = 0;
+  for (const PairList<Real>& l : m_lists) energy += l.elastic - l.elasticAsleep;
+  return energy;
 }
 
 template <class Real>

@@ -53,6 +53,11 @@ class PairLists {
   /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.
   void removeBody(std::uint32_t place);
 
+  /// Makes all contacts as stiff as `share` of what their bodies ask for, until told otherwise.
+  void soften(std::span<const std::unique_ptr<Body<Real>>> bodies, double share);
+  /// Energy in the contacts of what is awake [J].
+  double elasticAwake() const;
+
   /// Ends all contacts of a body that stays in the list. Returns the energy that was in them [J].
   double endContactsOf(std::uint32_t id);
 
@@ -64,10 +69,12 @@ class PairLists {
  private:
   void grid(const Body<Real>& body, ElementGrid& out) const;
   PairList<Real> take(const Body<Real>& a, const Body<Real>& b, std::uint32_t placeA, std::uint32_t placeB);
+  ContactLaw<Real> lawOf(const Body<Real>& a, const Body<Real>& b) const;
   void listWithin(const Body<Real>& body, std::uint32_t place, PairList<Real>& list);
   void listBetween(const Body<Real>& a, const Body<Real>& b, PairList<Real>& list);
 
   double m_skin = 0;
+  double m_share = 1;  // of the stiffness that bodies ask for
   std::vector<ElementGrid> m_grids;
   std::vector<PairList<Real>> m_lists;  // m_lists[place] is within body `place`; those between bodies behind
   std::vector<PairList<Real>> m_old;    // of the last build

@@ -14,6 +14,8 @@ namespace {
 // A point of an edge stays with the cell that it was in until it is deeper in another by this, over h. Points
 // lie on the borders of cells by rows, and where two cells tremble each change of cells would tell.
 constexpr double kStays = 0.01;
+// What comes into elements by less than this share of their radius, all springs together, rests on them.
+constexpr double kBlow = 1e-3;
 
 }  // namespace
 
@@ -66,7 +68,21 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
 
 template <class Real>
 void RigidContacts<Real>::soften(double frequency2) {
-  for (std::size_t p = 0; p < m_proxies.size(); ++p) setLaws(m_sides, m_proxies[p], frequency2, m_states[p]);
+  for (std::size_t p = 0; p < m_proxies.size(); ++p)
+    setLaws(m_sides, m_proxies[p], frequency2, m_share, m_states[p]);
+}
+
+template <class Real>
+void RigidContacts<Real>::setShare(double share) {
+  m_share = share;
+  soften(std::numeric_limits<double>::infinity());
+}
+
+template <class Real>
+double RigidContacts<Real>::elasticAwake() const {
+  double energy = 0;
+  for (const RigidContact& c : m_lists.contacts()) energy += c.memory.energy;
+  return energy;
 }
 
 // Which corners of the proxies press which elements in this substep.
@@ -319,6 +335,20 @@ double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
   for (std::size_t i = 0; i < m_proxies.size(); ++i)
     fastest = std::max(fastest, speedOf(m_proxies[i], drifts[i].velocity));
   return fastest;
+}
+
+template <class Real>
+double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const {
+  double highest = 0;
+  for (const RigidContact& c : m_lists.contacts()) {
+    const RigidProxy& proxy = m_proxies[c.proxy];
+    const double frequency2 = m_states[c.proxy].rates.stiffness;
+    if (!proxy.isDynamic() || frequency2 <= highest) continue;
+    const double speed = speedOf(proxy, drifts[c.proxy].velocity);
+    const double rests = kBlow * double(bodies[c.body]->constants->radius);
+    if (speed * speed > rests * rests * frequency2) highest = frequency2;
+  }
+  return highest;
 }
 
 template <class Real>

@@ -43,6 +43,10 @@ class RigidContacts {
   /// Makes the contacts of light bodies softer, so that no rate of theirs passes a multiple of
   /// `frequency2`, that of the elements [1/s^2].
   void soften(double frequency2);
+  /// Makes all contacts as stiff as `share` of what their bodies ask for, until told otherwise.
+  void setShare(double share);
+  /// Energy in the contacts of what is awake [J].
+  double elasticAwake() const;
   /// Visits visit(body, element, proxy, rates of the rigid body) for every candidate at a dynamic body.
   template <class Visit>
   void visitProxyRates(Visit&& visit) const {
@@ -81,6 +85,9 @@ class RigidContacts {
 
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
+  /// Highest frequency^2 of a rigid body on all that is near it, of those that come fast enough for a blow
+  /// [1/s^2].
+  double blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const;
   /// Shortest time in which a sphere that moves at `speed` is through a rigid body that it is near [s].
   double shortestPass(Bodies bodies, std::span<const Drift> drifts, double speed) const;
   std::span<const RigidProxy> proxies() const { return m_proxies; }
@@ -114,6 +121,7 @@ class RigidContacts {
   CornerHits m_corners, m_cornersLeft;  // where the proxies are, and where the last substep left them
   double m_moved = 0;                   // length of the step before the last accumulate [s]
   double m_elastic = 0;
+  double m_share = 1;  // of the stiffness that bodies ask for
 };
 
 extern template class RigidContacts<float>;

@@ -114,10 +114,10 @@ void addEdges(const RigidProxy& proxy, RigidState& state) {
   if (state.edgeRate > 0) state.rate += std::min(state.edgeRate, edgeWeight(proxy) * state.edgeMost);
 }
 
-void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2,
+void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2, double share,
              RigidState& state) {
   const double allowed = kLightBodyRate * frequency2;
-  const double share = state.rate > allowed ? allowed / state.rate : 1;
+  if (share * state.rate > allowed) share = allowed / state.rate;
   state.laws.clear();
   state.rates = {share * state.rate, 0};
   for (ContactSide side : sides) {

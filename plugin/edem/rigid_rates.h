@@ -28,9 +28,10 @@ void addMobility(const RigidContact& contact, const Body<Real>& body, const Rigi
 /// Adds the edges of all contacts: each of their points presses one element, whichever it is near.
 void addEdges(const RigidProxy& proxy, RigidState& state);
 
-/// The laws of contacts with a rigid body, by the sides of the bodies, and its rates. Contacts of a light one
-/// are softer, so that none of its rates passes a multiple of `frequency2`, that of the elements [1/s^2].
-void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2,
+/// The laws of contacts with a rigid body, by the sides of the bodies, and its rates: of `share` of the
+/// stiffness that the bodies ask for. Contacts of a light one are softer, so that none of its rates passes a
+/// multiple of `frequency2`, that of the elements [1/s^2].
+void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2, double share,
              RigidState& state);
 
 }  // namespace rubble::edem

@@ -4,8 +4,9 @@
 namespace rubble::edem {
 
 struct SolverDef {
-  double substepSafety = 0.9;       ///< share of the stable substep that is used
-  int maxSubstepsPerFrame = 20000;  ///< in 1/60 s; a body that needs more is refused
+  double substepSafety = 0.9;  ///< share of the stable substep that is used
+  /// In 1/60 s; a body that needs more is refused, contacts that do are made softer.
+  int maxSubstepsPerFrame = 20000;
   bool breaking = true;
   bool crushing = true;
   /// Fragments slower than this, surfaces included, fall asleep one by one, each with what it touches; 0:

@@ -41,14 +41,13 @@ void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bo
   }
 }
 
-template <class Real>
-double StepLength<Real>::resolving() const {
-  return m_contact2 > 0 ? kContactPhase / std::sqrt(m_contact2) : std::numeric_limits<double>::infinity();
+double blowStep(double frequency2) {
+  return frequency2 > 0 ? kContactPhase / std::sqrt(frequency2) : std::numeric_limits<double>::infinity();
 }
 
 template <class Real>
-double StepLength<Real>::resolvingRigid() const {
-  return m_proxy2 > 0 ? kContactPhase / std::sqrt(m_proxy2) : std::numeric_limits<double>::infinity();
+double StepLength<Real>::resolving() const {
+  return blowStep(m_contact2);
 }
 
 template <class Real>
@@ -102,7 +101,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   m_next.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) m_next[b].assign(m_rates[b].size(), {});
   m_bound = {};
-  m_contact2 = m_proxy2 = 0;
+  m_contact2 = 0;
   m_stiffest = 0;
   weighRides(bodies, rigid);
   for (const PairList<Real>& l : lists.lists()) {
@@ -152,7 +151,6 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
         ElementRates all = proxy;
         all += m_rides[p];
         add(place, m_rates[place][i], all);
-        m_proxy2 = std::max(m_proxy2, proxy.stiffness);
       });
   addRides(bodies, rigid);
 }

@@ -16,6 +16,9 @@
 
 namespace rubble::edem {
 
+/// Largest step that follows a blow of this frequency^2 [1/s^2] well enough for its energy [s].
+double blowStep(double frequency2);
+
 template <class Real>
 class StepLength {
  public:
@@ -32,8 +35,6 @@ class StepLength {
   double stable() const { return m_bound.stableStep(); }
   /// Largest step that follows a single contact through its blow well enough for its energy [s].
   double resolving() const;
-  /// The same of a rigid body on all that is near it, which is more than presses it [s].
-  double resolvingRigid() const;
   std::uint32_t stiffest() const { return m_stiffest; }
 
  private:
@@ -48,7 +49,6 @@ class StepLength {
   std::vector<std::vector<ElementRates>> m_next;  // of the contact that may begin at each element
   RateBound m_bound;
   double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
-  double m_proxy2 = 0;    // largest of a rigid body on all that is near it [1/s^2]
   std::uint32_t m_stiffest = 0;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -14,16 +13,13 @@
 #include "edem/frames.h"
 #include "edem/host_moves.h"
 #include "edem/sleep.h"
+#include "edem/tick_step.h"
 
 namespace rubble::edem {
 namespace {
 
 // Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
 constexpr double kSkinRadii = 0.5;
-// An element may not pass more than this share of its radius in a substep, or thin things are missed. Nor a
-// sphere more than this share of what it is near is thick: the force turns round at its middle, and the
-// moment of that is known to half a substep.
-constexpr double kTravelShare = 0.25;
 
 // `left`: of the tick [s].
 template <class Real>
@@ -73,45 +69,6 @@ bool contactsBegan(const World<Real>& w) {
       return body->work.touchesBegun[i] > 1;
     });
   });
-}
-
-// Longest safe step of a tick of `dt` as things are now [s]; a tick that would need too many fails.
-template <class Real>
-double longestStep(World<Real>& w, double dt) {
-  w.stepLength.bound(w.bodies, w.lists, w.rigid);
-  const double stable = std::min(w.def.substepSafety * w.stepLength.stable(), w.stepLength.resolving());
-  double speed = 0, radius = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < w.bodies.size(); ++b) {
-    const Body<Real>& body = *w.bodies[b];
-    if (body.state.asleep) continue;
-    speed = std::max(speed, speedOf(body, w.drifts.bodies[b].velocity));
-    radius = std::min(radius, double(body.constants->radius));
-  }
-  const double pass = w.rigid.shortestPass(w.bodies, w.drifts.proxies, speed);
-  speed = std::max(speed, w.rigid.maxSpeed(w.drifts.proxies));
-  const bool travels = speed > 0 && std::isfinite(radius);
-  const double travel =
-      kTravelShare * std::min(pass, travels ? radius / speed : std::numeric_limits<double>::infinity());
-  const double shortest = 1.0 / 60 / w.def.maxSubstepsPerFrame * (1 - 1e-9);
-  char text[200];
-  if (stable < shortest) {
-    std::snprintf(text, sizeof text,
-                  "body %u: its contacts%s need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
-                  "maxSubstepsPerFrame is %d: raise it",
-                  w.bodies[w.stepLength.stiffest()]->id,
-                  w.bodies[w.stepLength.stiffest()]->state.base.ride.on() ? " or a light anchorBody" : "",
-                  stable, std::ceil(1.0 / 60 / stable), w.def.maxSubstepsPerFrame);
-    w.failure = text;
-  } else if (travel < shortest) {
-    std::snprintf(text, sizeof text,
-                  "something moves at %.3g m/s, more than maxSubstepsPerFrame %d can follow: contacts may "
-                  "be missed",
-                  speed, w.def.maxSubstepsPerFrame);
-    w.report.warning = text;
-    return std::min({dt, stable, shortest});
-  }
-  // A blow on all that is near is followed as well as the substeps allow: it may be on less.
-  return std::min({dt, stable, travel, std::max(w.stepLength.resolvingRigid(), shortest)});
 }
 
 template <class Real>
@@ -250,6 +207,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.rigid.beginTick(proxies);
   w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
+  hardenContacts(w);
   if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
   for (auto& body : w.bodies)
     if (body->state.base.given && !beginRide(*body, w.rigid.proxies()))

@@ -25,6 +25,7 @@ struct World {
   RigidContacts<Real> rigid;
   RestingLoads resting;
   StepLength<Real> stepLength;
+  double contactShare = 1;  ///< of the stiffness that bodies ask for in contacts: as stiff as substeps allow
   bool listsStale = true;
   Drifts drifts;                                      ///< since the last listing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< of the last tick [m/s^2]

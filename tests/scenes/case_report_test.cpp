@@ -319,6 +319,18 @@ TEST(SlideCase, TheWayIsThatOfASpeedThatFallsEvenly) {
   EXPECT_NEAR(demo::stopDistance(3, kFriction, kGravity), way, 1e-5);
 }
 
+// Against Coulomb's law in small steps of time.
+TEST(ReposeCase, WhatATiltingPlaneLetsGoHasSlidByTheAngle) {
+  constexpr double kFriction = 0.4, kRate = 0.1, kGravity = 9.8, kStep = 1e-6;
+  double angle = 0, speed = 0, way = 0;
+  for (; way < 0.02; angle += kRate * kStep) {
+    const double pull = kGravity * (std::sin(angle) - kFriction * std::cos(angle));
+    speed = std::max(0.0, speed + kStep * pull);
+    way += kStep * speed;
+  }
+  EXPECT_NEAR(demo::slidAngle(0.02, kFriction, kRate, kGravity), angle, 1e-5);
+}
+
 // Each slice carries what hangs below it: the strains of a million slices, summed.
 TEST(HungCase, TheSinkIsTheSumOfTheStrains) {
   constexpr double kLength = 1.3, kDepth = 0.7, kDensity = 2000, kModulus = 1e7, kGravity = 9;

@@ -28,7 +28,9 @@ class DestructibleBody;
 
 struct DestructionDef {
   Precision precision = Precision::Float;  ///< of the elements' state
-  /// Upper limit on substeps in 1/60 s; a body that needs more is refused when it is added.
+  /// Upper limit on substeps in 1/60 s. A body that needs more is refused when it is added. Contacts that
+  /// need more are made softer, down to a hundredth, until they part, with a warning; the simulation stops
+  /// where that is not enough.
   int maxSubstepsPerFrame = 20000;
   /// Share of the stable substep that is used, 0 to 1.
   double substepSafety = 0.9;
