@@ -340,13 +340,20 @@ double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
 template <class Real>
 double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const {
   double highest = 0;
-  for (const RigidContact& c : m_lists.contacts()) {
-    const RigidProxy& proxy = m_proxies[c.proxy];
-    const double frequency2 = m_states[c.proxy].rates.stiffness;
+  const std::vector<RigidContact>& contacts = m_lists.contacts();
+  for (auto c = contacts.begin(); c != contacts.end();) {
+    const RigidProxy& proxy = m_proxies[c->proxy];
+    const double frequency2 = m_states[c->proxy].rates.stiffness;
+    double energy = 0, radius = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t place = c->proxy; c != contacts.end() && c->proxy == place; ++c) {
+      energy += c->memory.energy;
+      radius = std::min(radius, double(bodies[c->body]->constants->radius));
+    }
     if (!proxy.isDynamic() || frequency2 <= highest) continue;
-    const double speed = speedOf(proxy, drifts[c.proxy].velocity);
-    const double rests = kBlow * double(bodies[c.body]->constants->radius);
-    if (speed * speed > rests * rests * frequency2) highest = frequency2;
+    // In the middle of a blow it stands, and the springs have its energy.
+    const double speed = speedOf(proxy, drifts[std::size_t(&proxy - m_proxies.data())].velocity);
+    const double rests = kBlow * radius;
+    if (speed * speed + 2 * proxy.inverseMass * energy > rests * rests * frequency2) highest = frequency2;
   }
   return highest;
 }

@@ -160,8 +160,8 @@ TEST(AnchorRide, ABallStrikesTheBlock) {
   EXPECT_NEAR(w.linear().x() + double(ball->getLinearVelocity().x()), 2, 1e-4);
   EXPECT_LT(w.furthest(), 0.01);
   EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
-  w.expectClosed(1e-3);
-  w.clear();  // before the ball's shape goes
+  w.expectClosed(3e-3);  // a blow's own, of the first order in the substep: plugin/edem/README.md, Limits
+  w.clear();             // before the ball's shape goes
 }
 
 // Dropped onto the ground, where the base stops at once: a wave of rho c v goes through the block and comes
