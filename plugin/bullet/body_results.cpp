@@ -24,6 +24,12 @@ constexpr double kHeldShare = 0.05;
 // Share of the newest tick in the reaction that the substeps count on; at 1/2 a heavy slab on a light crate
 // keeps jumping from tick to tick.
 constexpr btScalar kTrust = btScalar(0.25);
+
+btVector3 atMost(const btVector3& reaction, const btVector3& load) {
+  const btScalar size = reaction.length(), most = load.length();
+  return size > most ? reaction * (most / size) : reaction;
+}
+
 }  // namespace
 
 // Links of one multibody move each other within the tick.
@@ -92,7 +98,7 @@ void Destruction::Impl::fixPositions() {
   BT_PROFILE("Rubble fix positions");
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
-    if ((!t.rigid && !t.link) || !(proxies[p].contactWeight > 0) || isHeld(*t.object)) continue;
+    if ((!t.rigid && !t.link) || !proxies[p].isPressed() || isHeld(*t.object)) continue;
     if (t.link) {
       if (!proxies[p].coupled.empty()) continue;  // each moves the others, too
       const btQuaternion turn = toBullet(proxies[p].orientation) * t.freeEnd.getRotation().inverse();
@@ -116,8 +122,9 @@ void Destruction::Impl::fixPositions() {
 bool Destruction::Impl::isHeld(const btCollisionObject& body) const {
   const btScalar least = btScalar(kHeldShare) * world.getGravity().length();
   if (!(least > 0)) return false;
-  return std::any_of(reactions.begin(), reactions.end(),
-                     [&](const bullet::Reaction& r) { return r.body == &body && r.linear.length() > least; });
+  return std::any_of(reactions.begin(), reactions.end(), [&](const bullet::Reaction& r) {
+    return r.body == &body && r.rests && r.linear.length() > least;
+  });
 }
 
 // A body that was at rest before and after this tick is held by something that only Bullet knows: the
@@ -128,8 +135,10 @@ void Destruction::Impl::noteReactions(double dt) {
   const std::vector<bullet::Reaction> before = std::exchange(reactions, {});
   const btScalar quiet = std::max(btScalar(kQuietSpeed), btScalar(0.5 * dt) * world.getGravity().length());
   const btScalar rate = btScalar(1 / dt);
-  for (const bullet::TouchedBody& t : touched) {
-    if ((!t.rigid && !t.link) || t.velocity.length() > quiet) continue;
+  for (std::size_t p = 0; p < touched.size(); ++p) {
+    const bullet::TouchedBody& t = touched[p];
+    const bool ridden = t.rigid && proxies[p].pulled;
+    if ((!t.rigid && !t.link) || (t.velocity.length() > quiet && !ridden)) continue;
     btVector3 velocity, spin;
     if (t.link) {
       const bullet::LinkMotion motion = bullet::motionOf(*t.link);
@@ -139,9 +148,14 @@ void Destruction::Impl::noteReactions(double dt) {
       velocity = t.rigid->getLinearVelocity();
       spin = t.rigid->getAngularVelocity();
     }
-    if (velocity.length() > quiet) continue;
+    const bool rests = t.velocity.length() <= quiet && velocity.length() <= quiet;
+    if (!rests && !ridden) continue;
     bullet::Reaction now{t.object, rate * (velocity - t.velocity - t.deltaVelocity) - t.acceleration,
-                         rate * (spin - t.spin - t.deltaSpin) - t.angularAcceleration};
+                         rate * (spin - t.spin - t.deltaSpin) - t.angularAcceleration, rests};
+    if (!rests) {  // no more than bears it: a blow is over in the next tick
+      now.linear = atMost(now.linear, t.acceleration + rate * t.deltaVelocity);
+      now.angular = atMost(now.angular, t.angularAcceleration + rate * t.deltaSpin);
+    }
     for (const bullet::Reaction& last : before) {
       if (last.body != now.body) continue;
       now.linear = last.linear + kTrust * (now.linear - last.linear);

@@ -27,6 +27,8 @@ DestructibleBody* Destruction::addBody(const DestructibleBodyDef& def) {
 
 void Destruction::removeBody(DestructibleBody* body) {
   m_impl->wakeTouching(*body);
+  const bullet::AnchorBody& base = body->impl().anchorBody;
+  if (base.ridden && bullet::isThere(m_impl->world, base)) base.body->activate();
   m_impl->world.removeRigidBody(body);
   delete body;
 }
@@ -35,7 +37,7 @@ void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody)
   if (body->impl().whole.shape) throw Error("anchorBody: of a body that Bullet may move as a whole");
   edem::Twist motion;
   if (anchorBody) {
-    bullet::requireAnchorBody(m_impl->world, *anchorBody);
+    bullet::requireAnchorBody(m_impl->world, *anchorBody, body->elementMass());
     motion = bullet::motionAt(*anchorBody, m_impl->solver->heldFrame(body->id()).origin);
   }
   m_impl->setAnchorBody(*body, anchorBody, motion);

@@ -55,7 +55,7 @@ std::vector<std::string> EnergyAlarm::end(std::span<const TouchedBody> touched,
                                           double energy) {
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     const TouchedBody& t = touched[p];
-    if (!t.rigid || !(proxies[p].contactWeight > 0)) continue;
+    if (!t.rigid || !proxies[p].isPressed()) continue;
     m_largestKinetic = std::max(
         m_largestKinetic, kinetic(1 / double(t.rigid->getInvMass()), m_begun[p].inertia, t.velocity, t.spin));
   }
@@ -64,10 +64,10 @@ std::vector<std::string> EnergyAlarm::end(std::span<const TouchedBody> touched,
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     const edem::RigidProxy& proxy = proxies[p];
     const auto known = m_accounts.find(proxy.key);
-    if (known == m_accounts.end() && !(proxy.contactWeight > 0)) continue;
+    if (known == m_accounts.end() && !proxy.isPressed()) continue;
     Account& account = known == m_accounts.end() ? m_accounts[proxy.key] : known->second;
     account.surplus += proxy.surplus;
-    if (touched[p].rigid && proxy.contactWeight > 0) {
+    if (touched[p].rigid && proxy.isPressed()) {
       const double unpaid = proxy.given - allowed(touched[p], proxy, m_begun[p], dt);
       account.unpaid = std::max(account.unpaid + unpaid, 0.0);
     }

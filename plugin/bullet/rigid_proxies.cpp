@@ -34,13 +34,6 @@ std::uint64_t hashOf(const std::vector<Eigen::Vector3d>& points) {
   return hash.value();
 }
 
-// Names an object for as long as it lives: by its number in the broadphase, which another object at the
-// address of a deleted one does not get.
-std::uint64_t keyOf(const btCollisionObject& object) {
-  const btBroadphaseProxy* handle = object.getBroadphaseHandle();
-  return handle ? std::uint64_t(std::uint32_t(handle->m_uniqueId)) + 1 : 0;
-}
-
 std::shared_ptr<const edem::Hull> makeHull(const std::vector<Eigen::Vector3d>& points) {
   std::vector<btVector3> input;
   for (const Eigen::Vector3d& p : points) input.push_back(toBullet(p));
@@ -94,6 +87,11 @@ Eigen::Matrix3d upright(int up) {
 }
 
 }  // namespace
+
+std::uint64_t keyOf(const btCollisionObject& object) {
+  const btBroadphaseProxy* handle = object.getBroadphaseHandle();
+  return handle ? std::uint64_t(std::uint32_t(handle->m_uniqueId)) + 1 : 0;
+}
 
 std::shared_ptr<const edem::Hull> RigidProxies::hullOf(const btCollisionShape& shape,
                                                        const std::vector<Eigen::Vector3d>& points) {

@@ -19,6 +19,10 @@ class btUniformScalingShape;
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
+/// Names an object for as long as it lives: by its number in the broadphase, which another object at the
+/// address of a deleted one does not get.
+std::uint64_t keyOf(const btCollisionObject& object);
+
 /// Makes proxies, and keeps the faces of hulls between ticks.
 class RigidProxies {
  public:

@@ -32,7 +32,8 @@ void Destruction::Impl::writeAppliedImpulses() {
         continue;
       const double share = 1.0 / double(proxy.touched.size()) / std::max(1, manifold.getNumContacts());
       for (int c = 0; c < manifold.getNumContacts(); ++c)
-        manifold.getContactPoint(c).m_appliedImpulse = btScalar(share * proxy.impulse.norm());
+        manifold.getContactPoint(c).m_appliedImpulse =
+            btScalar(share * (proxy.impulse - proxy.anchorImpulse).norm());
     }
   }
 }
@@ -51,7 +52,7 @@ void Destruction::Impl::bookEvents() {
     const edem::RigidProxy& proxy = proxies[p];
     if (!(proxy.contactWeight > 0)) continue;
     for (const std::uint32_t id : proxy.touched)
-      record(out.contacts, {id, touched[p].object, float(proxy.impulse.norm()),
+      record(out.contacts, {id, touched[p].object, float((proxy.impulse - proxy.anchorImpulse).norm()),
                             (proxy.contactPoint / proxy.contactWeight).cast<float>()});
   }
   for (DestructibleBody* body : bodies) {

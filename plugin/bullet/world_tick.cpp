@@ -77,7 +77,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   const bool carried = bodyDef.anchorBody && bodyDef.anchored && !bodyDef.asset->anchors.empty();
   edem::Twist carriedBy;
   if (carried) {
-    bullet::requireAnchorBody(world, *bodyDef.anchorBody);
+    bullet::requireAnchorBody(world, *bodyDef.anchorBody, bodyDef.material.density * bodyDef.asset->volume());
     carriedBy = bullet::motionAt(*bodyDef.anchorBody, bullet::centreOf(bodyDef));
     elements.velocity = carriedBy.linear;
     elements.spin = carriedBy.angular;
@@ -196,13 +196,17 @@ void Destruction::Impl::gatherProxies(double dt) {
   touched.clear();
   proxies.clear();
   for (DestructibleBody* body : bodies) {
-    for (btCollisionObject* object : body->impl().near) {
+    bullet::AnchorBody& base = body->impl().anchorBody;
+    std::vector<btCollisionObject*>& near = body->impl().near;
+    const bool rides = base.body && base.ridden && body->isActive();
+    if (rides && std::find(near.begin(), near.end(), base.body) == near.end()) near.push_back(base.body);
+    for (btCollisionObject* object : near) {
       const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
       if (upcastElements(object) || std::any_of(touched.begin(), touched.end(), known)) continue;
       edem::RigidProxy proxy = proxyMaker.make(*object, boxes);
       auto* link = btMultiBodyLinkCollider::upcast(object);
       if (link) bullet::take(*link, dt, proxy);
-      if (proxy.parts.empty()) continue;
+      if (proxy.parts.empty() && !(rides && base.is(*object))) continue;
       bullet::TouchedBody t;
       t.object = object;
       if (proxy.isDynamic()) {
@@ -219,7 +223,7 @@ void Destruction::Impl::gatherProxies(double dt) {
           proxy.acceleration += toEigen(held.linear);
           proxy.angularAcceleration += toEigen(held.angular);
         }
-        if (isHeld(*object) && solver->maxSpeed(body->id()) < kCalmSpeed) {
+        if (isHeld(*object) && speedOn(*object, *body) < kCalmSpeed) {
           t.held = true;
           proxy.inverseMass = 0;
           proxy.mobility.reset();
@@ -231,7 +235,7 @@ void Destruction::Impl::gatherProxies(double dt) {
       touched.push_back(t);
       proxies.push_back(std::move(proxy));
     }
-    body->impl().near.clear();
+    near.clear();
   }
   coupleLinks();
   spareFiltered();
@@ -294,7 +298,7 @@ void Destruction::Impl::advance(double dt) {
         begin, toBullet(Eigen::Vector3d(s.velocity + dt * s.acceleration + change)),
         toBullet(Eigen::Vector3d(s.spin + dt * s.angularAcceleration)) + t.deltaSpin, btScalar(dt),
         t.freeEnd);
-    if (proxies[p].contactWeight > 0 && !t.rigid->isActive()) t.rigid->activate();
+    if (proxies[p].isPressed() && !t.rigid->isActive()) t.rigid->activate();
   }
   giveLinks(dt, start);
   for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
@@ -514,6 +518,7 @@ void Destruction::Impl::updateSleep(double dt) {
     if (!lies || !body->impl().lay) body->impl().shape->refit(speed * dt);
     body->impl().lay = lies;
   }
+  waitForAnchored();
 }
 
 RUBBLE_ABI_END

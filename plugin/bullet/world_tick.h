@@ -39,6 +39,7 @@ struct TouchedBody {
 struct Reaction {
   const btCollisionObject* body = nullptr;  ///< compared only
   btVector3 linear{0, 0, 0}, angular{0, 0, 0};
+  bool rests = true;  ///< else it moves, and anchors ride on it
 };
 
 RUBBLE_ABI_END
@@ -103,6 +104,10 @@ struct Destruction::Impl {
   void bearAnchored();
   /// Tells the anchors where the bodies that they hold to will be.
   void carryAnchored(double dt);
+  void rideAnchored(DestructibleBody& body);
+  double speedOn(const btCollisionObject& object, const DestructibleBody& own) const;
+  /// What rides on a body of Bullet's and that fall asleep in the same tick.
+  void waitForAnchored();
   void followElements();
   void forgetTaken();
   void lateImpulses();

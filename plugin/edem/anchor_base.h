@@ -3,8 +3,11 @@
 // end on a cubic: positions are met at the ticks' ends, and velocities go on from tick to tick. With a
 // velocity for each tick the anchored would be struck by a wave of rho c times its change at every tick of a
 // lift that only gathers speed.
+//
+// Where that body is dynamic the anchors ride on its copy (anchor_ride.h), which they push in turn.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "edem/types.h"
@@ -25,6 +28,22 @@ struct Twist {
   bool isZero() const { return linear.isZero(0) && angular.isZero(0); }
 };
 
+/// A dynamic body of the host's, by its copy in the substeps, that far ends go with.
+struct AnchorRide {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::uint64_t key = 0;        ///< of the copy in the coming tick; 0: none
+  Frame hold;                   ///< of the far ends, in its own axes from its centre of mass
+  std::uint32_t place = kNone;  ///< of the copy among those of this tick
+  double mass = 0;              ///< 0: it stands through this tick [kg]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of its mass, now [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about that, world axes [kg m^2]
+  /// By what the far ends were faster in the last tick than they are as this begins; until the first substep.
+  Twist lost;
+
+  bool on() const { return place != kNone; }
+  bool moves() const { return on() && mass > 0; }
+};
+
 struct AnchorBase {
   bool given = false;           ///< the anchors hold to one; else to the world
   Frame at;                     ///< of the far ends, now
@@ -37,6 +56,8 @@ struct AnchorBase {
   Twist way;         ///< to its end
   Twist start, end;  ///< rates there
   double length = 0, time = 0;
+
+  AnchorRide ride;  ///< instead of a way
 
   bool moves() const { return !way.isZero() || !start.isZero(); }
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& world) const {

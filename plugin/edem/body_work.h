@@ -27,12 +27,6 @@ struct FragmentMotion {
   }
 };
 
-/// What the base of anchors gives at their far ends.
-struct BaseLoad {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the origin of their frame [N m]
-};
-
 template <class Real>
 struct BodyWork {
   // What is stepped, in rising order; written by listAwake. Elements that were crushed and springs that broke
@@ -51,14 +45,16 @@ struct BodyWork {
   std::vector<Vec3<double>> position;                   ///< rest + u, relative to origin [m]
   std::vector<Vec3<Real>> force, torque;                ///< all [N], [N m]
   std::vector<Vec3<Real>> dampingForce, dampingTorque;  ///< the part of force and torque that is lost energy
-  BaseLoad base, baseDamping;                           ///< all, and the part that is lost energy
-  std::vector<Real> load;                               ///< W_I, eq. (3) [J]
-  std::vector<std::uint32_t> overloaded;                ///< springs to break in this substep
-  std::vector<BreakMode> overloadMode;                  ///< why, beside `overloaded`
-  std::vector<std::uint32_t> crushing;                  ///< elements that leave at the end of this substep
-  std::vector<std::uint8_t> leaving;                    ///< 1 for those
-  std::vector<std::uint8_t> springListed;               ///< marks of markCrushed; all 0 between calls
-  std::vector<std::uint16_t> touchesBegun;              ///< at each element since the substep was chosen
+  Wrench base, baseDamping;  ///< of the anchors' base at their far ends, about the origin of their frame:
+                             ///< all, and the part that is lost energy
+  Wrench dampedByBase;       ///< what damping gave what the base holds, after the substeps, likewise [N s]
+  std::vector<Real> load;    ///< W_I, eq. (3) [J]
+  std::vector<std::uint32_t> overloaded;    ///< springs to break in this substep
+  std::vector<BreakMode> overloadMode;      ///< why, beside `overloaded`
+  std::vector<std::uint32_t> crushing;      ///< elements that leave at the end of this substep
+  std::vector<std::uint8_t> leaving;        ///< 1 for those
+  std::vector<std::uint8_t> springListed;   ///< marks of markCrushed; all 0 between calls
+  std::vector<std::uint16_t> touchesBegun;  ///< at each element since the substep was chosen
 };
 
 }  // namespace rubble::edem

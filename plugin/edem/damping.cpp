@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "edem/anchor_ride.h"
 #include "edem/rigid_motion.h"
 
 namespace rubble::edem {
@@ -26,10 +27,14 @@ void dampDeformation(Body<Real>& body, double rate, double dt, Books& books) {
 template <class Real>
 void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt, Books& books) {
   assert(rates.size() == body.elementCount() && dt >= 0);
-  const auto motions = rigidMotions(body);
+  const AnchorBase& base = body.state.base;  // at rest where there is none
+  auto motions = rigidMotions(body);
   std::vector<std::uint8_t> held(body.elementCount(), 0);
   for (const std::uint32_t i : body.work.awake)
     if (body.state.alive[i] && body.state.anchored[i]) held[body.state.fragment[i]] = 1;
+  if (base.ride.moves())
+    for (auto& [root, motion] : motions)
+      if (held[root]) motion = withBase(motion, base);
   for (const std::uint32_t i : body.work.awake) {
     if (!body.state.alive[i]) continue;
     const double rate = rates[body.state.fragment[i]];
@@ -39,9 +44,9 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
     const bool isHeld = held[body.state.fragment[i]] != 0;
     const RigidMotion& m = motions.at(body.state.fragment[i]);
     const Eigen::Vector3d x = body.worldPosition(i);
-    const AnchorBase& base = body.state.base;  // at rest where there is none
-    const Eigen::Vector3d v = isHeld ? base.velocityAt(x) : m.at(x);
-    const Eigen::Vector3d w = isHeld ? base.velocity.angular : m.spin;
+    const bool byBase = isHeld && !base.ride.moves();
+    const Eigen::Vector3d v = byBase ? base.velocityAt(x) : m.at(x);
+    const Eigen::Vector3d w = byBase ? base.velocity.angular : m.spin;
     const double before = kineticOf(body, i);
     const Vec3<Real> velocity = body.state.velocity[i], spin = body.state.spin[i];
     body.state.velocity[i] += (lost * (v - velocity.template cast<double>())).template cast<Real>();
@@ -54,8 +59,13 @@ void dampDeformation(Body<Real>& body, std::span<const double> rates, double dt,
         body.constants->mass[i] * (body.state.velocity[i] - velocity).template cast<double>();
     const Eigen::Vector3d turn =
         body.constants->inertia[i] * (body.state.spin[i] - spin).template cast<double>();
-    books.anchors.push(1, push, x - books.centre, turn);
-    if (base.given) {
+    if (base.ride.on()) {  // what it takes of that, and its work, are booked when it does (endRide)
+      body.work.dampedByBase.force += push;
+      body.work.dampedByBase.torque += (x - base.at.origin).cross(push) + turn;
+    } else {
+      books.anchors.push(1, push, x - books.centre, turn);
+    }
+    if (base.given && !base.ride.on()) {
       const double work = push.dot(v) + turn.dot(w);
       books.anchors.work.add(work, 0);
       books.massDamped += work;

@@ -25,7 +25,8 @@ Thing thingOf(const Body<Real>& body) {
   Thing thing;
   if (body.state.parked) return thing;  // the host has a rigid body for it
   thing.box = boundsOf(body);
-  thing.moves = !body.state.asleep && body.state.sleepingCount == 0 && body.state.anchorsIntact == 0;
+  const bool held = body.state.anchorsIntact > 0 && !body.state.base.ride.moves();
+  thing.moves = !body.state.asleep && body.state.sleepingCount == 0 && !held;
   if (!thing.moves) return thing;
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < body.elementCount(); ++i) {

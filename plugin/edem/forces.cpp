@@ -68,7 +68,7 @@ void beginSubstep(const BodyState<Real>& state, BodyWork<Real>& work) {
     work.dampingTorque[i].setZero();
     work.load[i] = 0;
   }
-  work.base = work.baseDamping = {};
+  work.base = work.baseDamping = work.dampedByBase = {};
   work.overloaded.clear();
   work.overloadMode.clear();
   work.crushing.clear();
@@ -90,7 +90,7 @@ double accumulateSprings(const Body<Real>& body, BodyWork<Real>& work, double ki
     // Eq. (3): each spring counts for both its elements (DEVIATION, default: with the energy of k_rot).
     work.load[spring.first] += energy;
     if (body.isAnchor(s)) {
-      bookAnchor(body, s, load, kick, books);
+      if (!body.state.base.ride.on()) bookAnchor(body, s, load, kick, books);
       addBase(body, s, load, 1, work);
     } else {
       work.load[spring.second] += energy;
@@ -148,7 +148,7 @@ void applyBreaks(Body<Real>& body, std::uint32_t place, double kick, PairLists<R
         body.state.origin + body.work.position[spring.first] + load.armFirst.template cast<double>();
     report.broken.push_back({body.id, s, body.work.overloadMode[k], energy, at});
     if (body.isAnchor(s)) {
-      bookAnchor(body, s, load, -kick, books);
+      if (!body.state.base.ride.on()) bookAnchor(body, s, load, -kick, books);
       addBase(body, s, load, -1, body.work);
       --body.state.anchorsIntact;
       bool held = false;
@@ -174,7 +174,7 @@ template <class Real>
 void moveBase(Body<Real>& body, double kick, double step, Books& books) {
   AnchorBase& base = body.state.base;
   if (!base.given) return;
-  const auto power = [&](const BaseLoad& load) {
+  const auto power = [&](const Wrench& load) {
     return 0.5 * kick * (load.force.dot(base.velocity.linear) + load.torque.dot(base.velocity.angular));
   };
   const double given = power(body.work.base), lost = power(body.work.baseDamping);

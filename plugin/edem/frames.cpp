@@ -163,6 +163,29 @@ void followBase(Body<Real>& body) {
 }
 
 template <class Real>
+void moveFrame0(Body<Real>& body, const Frame& to) {
+  const Frame old = std::exchange(body.state.frames[0], to);
+  body.state.base.at = to;
+  writeFarEnds(body);
+  const bool turns = !(old.turn.coeffs() == to.turn.coeffs());
+  const Quat<Real> around = (to.turn * old.turn.conjugate()).normalized().template cast<Real>();
+  const std::vector<Eigen::Matrix3d> matrices = turnsOf(body);
+  for (std::size_t i = 0; i < body.elementCount(); ++i) {
+    if (body.state.frameOf[i] != 0) continue;
+    if (turns) {
+      Vec3<Real>& u = body.state.displacement[i];
+      u += turned(around, u);
+      Quat<Real>& q = body.state.rotation[i];
+      q = (around * q * around.conjugate()).normalized();
+    }
+    turnElement(body, i, matrices);
+  }
+  for (std::size_t s = 0; turns && s < body.state.springs.size(); ++s)
+    if (body.state.intact[s] && body.state.frameOf[body.state.springs[s].first] == 0)
+      turnSpring(body, s, matrices);
+}
+
+template <class Real>
 void writeFarEnds(Body<Real>& body) {
   const AnchorBase& base = body.state.base;
   const Frame& frame0 = body.state.frames[0];
@@ -183,6 +206,8 @@ template void fitFrames(Body<float>&);
 template void fitFrames(Body<double>&);
 template void followBase(Body<float>&);
 template void followBase(Body<double>&);
+template void moveFrame0(Body<float>&, const Frame&);
+template void moveFrame0(Body<double>&, const Frame&);
 template void writeFarEnds(Body<float>&);
 template void writeFarEnds(Body<double>&);
 

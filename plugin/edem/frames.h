@@ -25,6 +25,10 @@ void fitFrames(Body<Real>& body);
 template <class Real>
 void followBase(Body<Real>& body);
 
+/// Puts frame 0 elsewhere, with all that it holds and with the base; velocities stay.
+template <class Real>
+void moveFrame0(Body<Real>& body, const Frame& to);
+
 /// Writes what springs take of the base's motion.
 template <class Real>
 void writeFarEnds(Body<Real>& body);

@@ -85,6 +85,25 @@ void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books) {
   books.angular += angularNow - angular;
 }
 
+template <class Real>
+void moveHeld(Body<Real>& body, const Frame& to, Books& books) {
+  const auto angular = [&] {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < body.elementCount(); ++i)
+      if (body.state.alive[i] && body.state.frameOf[i] == 0)
+        sum += (body.worldPosition(i) - books.centre)
+                   .cross(body.constants->mass[i] * body.state.velocity[i].template cast<double>());
+    return sum;
+  };
+  const Eigen::Vector3d before = angular();
+  moveFrame0(body, to);
+  const Eigen::Vector3d gained = angular() - before;
+  books.bullet.angular += gained;
+  books.angular += gained;
+}
+
+template void moveHeld(Body<float>&, const Frame&, Books&);
+template void moveHeld(Body<double>&, const Frame&, Books&);
 template void pushWhole(Body<float>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
 template void pushWhole(Body<double>&, std::uint32_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);
 template void addHostLoads(Body<float>&, double, Books&);

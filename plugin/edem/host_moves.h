@@ -23,4 +23,8 @@ void bookHostLoads(const Body<Real>& body, double kick, Books& books);
 template <class Real>
 void moveWhole(Body<Real>& body, const Eigen::Isometry3d& by, Books& books);
 
+/// Moves frame 0 with what it holds, whose velocities stay as they are.
+template <class Real>
+void moveHeld(Body<Real>& body, const Frame& to, Books& books);
+
 }  // namespace rubble::edem

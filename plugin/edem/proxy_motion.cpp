@@ -15,6 +15,16 @@ void setPose(RigidProxy& proxy, const RigidPose& pose) {
   proxy.orientation = pose.orientation;
 }
 
+void pushProxy(RigidProxy& proxy, const Wrench& impulse) {
+  const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
+  proxy.velocity += proxy.inverseMass * impulse.force;
+  if (proxy.isDynamic())
+    proxy.spin += turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * impulse.torque));
+  proxy.impulse += impulse.force;
+  proxy.angularImpulse += impulse.torque;
+  proxy.anchorImpulse += impulse.force;
+}
+
 double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift) {
   return (proxy.velocity - drift).norm() + proxy.spin.norm() * proxy.reach();
 }
@@ -43,6 +53,8 @@ void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
     proxy.angularImpulse.setZero();
     proxy.contactPoint.setZero();
     proxy.contactWeight = 0;
+    proxy.pulled = false;
+    proxy.anchorImpulse.setZero();
     proxy.touched.clear();
   }
 }
@@ -59,11 +71,13 @@ void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, do
     const auto power = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
       return 0.5 * kick * (force.dot(proxy.velocity) + torque.dot(proxy.spin));
     };
+    proxy.anchorImpulse += kick * state.anchorForce;
     const double given = -power(state.force, state.torque),
+                 byAnchors = -power(state.anchorForce, state.anchorTorque),
                  lost = power(state.dampingForce, state.dampingTorque);
     books.bullet.linear -= kick * state.force;
     books.bullet.angular -= kick * ((proxy.position - books.centre).cross(state.force) + state.torque);
-    books.bullet.size += kick * state.size;
+    books.bullet.size += kick * (state.size + state.anchorForce.norm());
     if (proxy.mobility) {
       Eigen::Matrix<double, 6, 1> push;
       push << state.force, state.torque;
@@ -85,8 +99,8 @@ void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, do
     books.bullet.work.add(given, givenNext);
     proxy.given += given + givenNext;
     proxy.givenNext = givenNext;
-    proxy.surplus -= given;
-    states[p].surplusNext -= givenNext;
+    proxy.surplus -= given - byAnchors;
+    states[p].surplusNext -= givenNext + power(state.anchorForce, state.anchorTorque);
     books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
     proxy.position += step * proxy.velocity;
     const double angle = proxy.spin.norm() * step;

@@ -10,6 +10,9 @@
 
 namespace rubble::edem {
 
+/// Gives it an impulse and one of rotation about its centre of mass [N s], [N m s].
+void pushProxy(RigidProxy& proxy, const Wrench& impulse);
+
 RigidPose poseOf(const RigidProxy& proxy);
 void setPose(RigidProxy& proxy, const RigidPose& pose);
 /// Of its surface, beside a drift [m/s].

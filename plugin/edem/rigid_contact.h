@@ -67,7 +67,9 @@ struct RigidState {
   /// On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
-  double size = 0;     ///< sum of |force| [N]
+  Eigen::Vector3d anchorForce = Eigen::Vector3d::Zero();  ///< of them those of anchors
+  Eigen::Vector3d anchorTorque = Eigen::Vector3d::Zero();
+  double size = 0;     ///< sum of |force| of contacts [N]
   double pressed = 0;  ///< the same in the last substep [N]
   Eigen::Vector3d listedPosition = Eigen::Vector3d::Zero();
   Eigen::Quaterniond listedOrientation = Eigen::Quaterniond::Identity();

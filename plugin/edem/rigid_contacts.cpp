@@ -197,6 +197,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
                                      Books& books) {
   for (RigidState& s : m_states) {
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
+    s.anchorForce = s.anchorTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
     s.corners.beginStep();
   }
@@ -291,6 +292,24 @@ void RigidContacts<Real>::bookChange(const RigidTouch& before, const RigidTouch&
 }
 
 template <class Real>
+void RigidContacts<Real>::pull(std::uint32_t p, const Wrench& all, const Wrench& damping) {
+  RigidState& state = m_states[p];
+  state.force += all.force;
+  state.torque += all.torque;
+  state.anchorForce += all.force;
+  state.anchorTorque += all.torque;
+  state.dampingForce += damping.force;
+  state.dampingTorque += damping.torque;
+  m_proxies[p].pulled = true;
+}
+
+template <class Real>
+void RigidContacts<Real>::push(std::uint32_t p, const Wrench& impulse) {
+  pushProxy(m_proxies[p], impulse);
+  m_states[p].left = poseOf(m_proxies[p]);
+}
+
+template <class Real>
 void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Books& books) {
   for (const Push& push : m_pushes) {
     m_proxies[push.proxy].surplus += 0.5 * kick * push.before;
@@ -321,13 +340,20 @@ double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
 template <class Real>
 double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const {
   double highest = 0;
-  for (const RigidContact& c : m_lists.contacts()) {
-    const RigidProxy& proxy = m_proxies[c.proxy];
-    const double frequency2 = m_states[c.proxy].rates.stiffness;
+  const std::vector<RigidContact>& contacts = m_lists.contacts();
+  for (auto c = contacts.begin(); c != contacts.end();) {
+    const RigidProxy& proxy = m_proxies[c->proxy];
+    const double frequency2 = m_states[c->proxy].rates.stiffness;
+    double energy = 0, radius = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t place = c->proxy; c != contacts.end() && c->proxy == place; ++c) {
+      energy += c->memory.energy;
+      radius = std::min(radius, double(bodies[c->body]->constants->radius));
+    }
     if (!proxy.isDynamic() || frequency2 <= highest) continue;
-    const double speed = speedOf(proxy, drifts[c.proxy].velocity);
-    const double rests = kBlow * double(bodies[c.body]->constants->radius);
-    if (speed * speed > rests * rests * frequency2) highest = frequency2;
+    // In the middle of a blow it stands, and the springs have its energy.
+    const double speed = speedOf(proxy, drifts[std::size_t(&proxy - m_proxies.data())].velocity);
+    const double rests = kBlow * radius;
+    if (speed * speed + 2 * proxy.inverseMass * energy > rests * rests * frequency2) highest = frequency2;
   }
   return highest;
 }

@@ -47,11 +47,11 @@ class RigidContacts {
   void setShare(double share);
   /// Energy in the contacts of what is awake [J].
   double elasticAwake() const;
-  /// Visits visit(body, element, rates of the rigid body) for every candidate at a dynamic body.
+  /// Visits visit(body, element, proxy, rates of the rigid body) for every candidate at a dynamic body.
   template <class Visit>
   void visitProxyRates(Visit&& visit) const {
     for (const RigidContact& c : m_lists.contacts())
-      if (m_proxies[c.proxy].isDynamic()) visit(c.body, c.element, m_states[c.proxy].rates);
+      if (m_proxies[c.proxy].isDynamic()) visit(c.body, c.element, c.proxy, m_states[c.proxy].rates);
   }
 
   /// Contact forces on elements and proxies (paper 3.1.2, "interaction with other objects").
@@ -62,6 +62,13 @@ class RigidContacts {
   void expose(Bodies bodies, double step, double kick, RestingLoads& resting, Books& books);
   /// Ends all contacts of a body, between two ticks. Returns the energy that was in them [J].
   double endContactsOf(std::uint32_t id);
+  /// Adds what anchors do to a proxy in this substep, about its centre of mass, and the part of it that is
+  /// lost energy [N], [N m].
+  void pull(std::uint32_t proxy, const Wrench& all, const Wrench& damping);
+  /// Gives a proxy an impulse and one of rotation about its centre, after the substeps [N s], [N m s].
+  void push(std::uint32_t proxy, const Wrench& impulse);
+  /// What all contacts of a proxy are as fast as, if they touch.
+  const ElementRates& proxyRates(std::uint32_t proxy) const { return m_states[proxy].rates; }
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
   /// Furthest that the cells of a body, by its place, and a rigid body are in each other [m].

@@ -46,16 +46,20 @@ struct RigidProxy {
   Eigen::Vector3d contactPoint = Eigen::Vector3d::Zero();  ///< impulse-weighted sum of contact points [N s m]
   double contactWeight = 0;                                ///< sum of the sizes of the contact impulses [N s]
   std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
+  bool pulled = false;                                     ///< by anchors that ride on it
+  Eigen::Vector3d anchorImpulse = Eigen::Vector3d::Zero();  ///< of `impulse`, theirs [N s]
   /// Work by its own motion in the substeps, on elements and contacts [J].
   double given = 0;
   /// Of it, what its velocity is ahead of the last instant of forces by: at that instant it held so much more
   /// kinetic energy than it does by its velocity [J].
   double givenNext = 0;
   /// Work on the elements, by their own motion, beyond what the body gave; summed over ticks never more than
-  /// 0, or the contacts make energy. Up to the last instant of forces [J].
+  /// 0, or the contacts make energy; without anchors, which are springs of the elements' own. Up to the last
+  /// instant of forces [J].
   double surplus = 0;
 
   bool isDynamic() const { return inverseMass > 0; }
+  bool isPressed() const { return contactWeight > 0 || pulled; }
   bool isStatic() const { return !isDynamic() && !kinematic; }
   Eigen::AlignedBox3d bounds() const;  ///< of all parts, in the world
   double reach() const;  ///< furthest point of its parts from the centre of mass [m]; planes count 0

@@ -78,7 +78,7 @@ class SolverOf final : public Solver {
     const Body<Real>& b = of(id);
     return {b.state.alive,        b.state.intact,   b.state.fragment,      b.constants->mass,
             b.constants->inertia, b.state.sleeping, b.state.fragmentCount, b.state.crushedCount,
-            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount};
+            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount, b.state.anchorsIntact};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {
@@ -141,13 +141,27 @@ class SolverOf final : public Solver {
     Body<Real>& body = *m_world.bodies[place];
     AnchorBase& base = body.state.base;
     assert(base.given);
+    base.ride = {};
     const Frame& now = body.state.frames[0];
     if (target.origin == now.origin && target.turn.coeffs() == now.turn.coeffs()) return !base.end.isZero();
     base.target = target;
-    if (body.state.asleep) setAsleep(id, false);
-    for (std::uint32_t i = 0; i < body.elementCount(); ++i)
-      if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, std::uint32_t(place), i);
+    wakeHeld(place);
     return true;
+  }
+  void ride(std::uint32_t id, std::uint64_t key, const Frame& hold, const Frame& now) override {
+    const std::size_t place = placeOf(id);
+    Body<Real>& body = *m_world.bodies[place];
+    assert(body.state.base.given && key != 0);
+    wakeHeld(place);
+    body.state.base.ride = {};
+    body.state.base.ride.key = key;
+    body.state.base.ride.hold = hold;
+    const Frame& was = body.state.frames[0];
+    if (now.origin == was.origin && now.turn.coeffs() == was.turn.coeffs()) return;
+    // Nothing that touched it does after a leap.
+    if ((now.origin - was.origin).norm() > double(body.constants->radius)) endContactsOf(id);
+    moveHeld(body, now, m_world.books);
+    m_world.listsStale = true;
   }
 
   void load(std::uint32_t id, std::span<const HostLoad> loads) override {
@@ -202,6 +216,13 @@ class SolverOf final : public Solver {
   }
 
  private:
+  // What the anchors hold.
+  void wakeHeld(std::size_t place) {
+    const Body<Real>& body = *m_world.bodies[place];
+    if (body.state.asleep) setAsleep(body.id, false);
+    for (std::uint32_t i = 0; i < body.elementCount(); ++i)
+      if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, std::uint32_t(place), i);
+  }
   std::size_t placeOf(std::uint32_t id) const {
     for (std::size_t b = 0; b < m_world.bodies.size(); ++b)
       if (m_world.bodies[b]->id == id) return b;

@@ -31,6 +31,7 @@ struct BodyView {
   std::uint32_t fragments = 0, crushed = 0, broken = 0;
   bool asleep = false;
   std::uint32_t sleepingCount = 0;
+  std::uint32_t anchorsIntact = 0;
 
   /// Nothing of it moves.
   bool lies() const { return asleep || sleepingCount + crushed == alive.size(); }
@@ -97,6 +98,10 @@ class Solver {
   /// Where that frame will be when the next tick ends; without it they stand still. Returns whether they
   /// move; then what they hold wakes.
   virtual bool carry(std::uint32_t id, const Frame& target) = 0;
+  /// In place of that: the far ends ride on the proxy with this key through the next tick and press it,
+  /// `hold` away in its own axes from its centre of mass. `now` is where they are by that; what they hold is
+  /// put there with them, for the host has moved the proxy's body since the last tick, and wakes.
+  virtual void ride(std::uint32_t id, std::uint64_t key, const Frame& hold, const Frame& now) = 0;
   /// Presses elements of a body all through its next tick. Booked as the host's; wakes nothing.
   virtual void load(std::uint32_t id, std::span<const HostLoad> loads) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in

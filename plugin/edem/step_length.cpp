@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "edem/anchor_ride.h"
 #include "rubble/error.h"
 
 namespace rubble::edem {
@@ -69,6 +70,31 @@ void StepLength<Real>::add(std::uint32_t place, const ElementRates& a, const Ele
 }
 
 template <class Real>
+void StepLength<Real>::weighRides(std::span<const std::unique_ptr<Body<Real>>> bodies,
+                                  const RigidContacts<Real>& rigid) {
+  m_rides.assign(rigid.proxies().size(), {});
+  for (const auto& body : bodies)
+    if (isRiding(*body) && body->state.base.ride.moves()) {
+      const std::uint32_t p = body->state.base.ride.place;
+      m_rides[p] += rideRates(*body, rigid.proxies()[p]);
+    }
+}
+
+template <class Real>
+void StepLength<Real>::addRides(std::span<const std::unique_ptr<Body<Real>>> bodies,
+                                const RigidContacts<Real>& rigid) {
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    const Body<Real>& body = *bodies[b];
+    if (!isRiding(body) || !body.state.base.ride.moves()) continue;
+    const std::uint32_t p = body.state.base.ride.place;
+    ElementRates all = rigid.proxyRates(p);
+    all += m_rides[p];
+    for (const std::uint32_t s : body.work.awakeSprings)
+      if (body.isAnchor(s) && body.state.intact[s]) add(b, m_rates[b][body.state.springs[s].first], all);
+  }
+}
+
+template <class Real>
 void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies,
                              const PairLists<Real>& lists, RigidContacts<Real>& rigid) {
   m_rates = m_springs;
@@ -77,6 +103,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   m_bound = {};
   m_contact2 = 0;
   m_stiffest = 0;
+  weighRides(bodies, rigid);
   for (const PairList<Real>& l : lists.lists()) {
     const Body<Real>&a = *bodies[l.first], &b = *bodies[l.second];
     const ContactLaw<double> law = l.law.template cast<double>();
@@ -119,9 +146,13 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   // What moves at a rigid body moves it too: light ones are made softer where they would need a step much
   // shorter than the elements'.
   rigid.soften(m_bound.frequency2);
-  rigid.visitProxyRates([&](std::uint32_t place, std::uint32_t i, const ElementRates& proxy) {
-    add(place, m_rates[place][i], proxy);
-  });
+  rigid.visitProxyRates(
+      [&](std::uint32_t place, std::uint32_t i, std::uint32_t p, const ElementRates& proxy) {
+        ElementRates all = proxy;
+        all += m_rides[p];
+        add(place, m_rates[place][i], all);
+      });
+  addRides(bodies, rigid);
 }
 
 template <class Real>

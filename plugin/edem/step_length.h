@@ -38,11 +38,15 @@ class StepLength {
   std::uint32_t stiffest() const { return m_stiffest; }
 
  private:
+  void weighRides(std::span<const std::unique_ptr<Body<Real>>> bodies, const RigidContacts<Real>& rigid);
+  void addRides(std::span<const std::unique_ptr<Body<Real>>> bodies, const RigidContacts<Real>& rigid);
   void addContact(std::uint32_t place, std::uint32_t element, const ElementRates& one, bool touching);
   void add(std::uint32_t place, const ElementRates& a, const ElementRates& b);
 
   std::vector<std::vector<ElementRates>> m_springs, m_rates;  // by body
-  std::vector<std::vector<ElementRates>> m_next;              // of the contact that may begin at each element
+  std::vector<ElementRates>
+      m_rides;  // of dynamic bodies by the anchors that ride on them, beside the proxies
+  std::vector<std::vector<ElementRates>> m_next;  // of the contact that may begin at each element
   RateBound m_bound;
   double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
   std::uint32_t m_stiffest = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "edem/anchor_ride.h"
 #include "edem/body_queries.h"
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
@@ -140,18 +141,30 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
     moveMotions(body, kick, step, gravity);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }
-  w.rigid.integrate(w.bodies, kick, step, w.books);
   for (auto& body : w.bodies)
-    if (!body->state.asleep) moveBase(*body, kick, step, w.books);
+    if (isRiding(*body)) pullRide(*body, kick, w.rigid, w.books);
+  w.rigid.integrate(w.bodies, kick, step, w.books);
+  for (auto& body : w.bodies) {
+    if (isRiding(*body))
+      goWithRide(*body, w.rigid.proxies());
+    else if (!body->state.asleep)
+      moveBase(*body, kick, step, w.books);
+  }
   for (auto& body : w.bodies)
     if (!body->work.crushing.empty()) removeCrushed(*body, brokenBegin, w.books, w.report);
 }
 
-// What moves with its base is not slow, however slowly that goes.
+// What moves with its base is not slow, however slowly that goes. And what a dynamic one carries is its load
+// until both sleep, which is the host's decision.
 template <class Real>
 void staysAwake(Body<Real>& body) {
-  for (const std::uint32_t i : body.work.awake)
-    if (body.state.frameOf[i] == 0) body.state.calmTime[i] = body.state.slowTime[i] = 0;
+  const bool moves = body.state.base.moves() || body.state.base.ride.moves();
+  if (!moves && !body.state.base.ride.on()) return;
+  for (const std::uint32_t i : body.work.awake) {
+    if (body.state.frameOf[i] != 0) continue;
+    body.state.calmTime[i] = 0;
+    if (moves) body.state.slowTime[i] = 0;
+  }
 }
 
 template <class Real>
@@ -166,8 +179,10 @@ void closeTick(World<Real>& w, double dt) {
   }
   for (auto& body : w.bodies) body->state.hostLoads.clear();
   for (auto& body : w.bodies)
-    if (!body->state.asleep && body->state.base.moves()) staysAwake(*body);
+    if (!body->state.asleep) staysAwake(*body);
   settle(w, dt);
+  for (auto& body : w.bodies)
+    if (isRiding(*body)) endRide(*body, w.rigid, w.books);
   for (auto& body : w.bodies) {
     if (body->state.asleep) continue;
     fitFrames(*body);
@@ -195,7 +210,8 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   hardenContacts(w);
   if (std::exchange(w.gravity, gravity) != gravity) wakeAll(w);
   for (auto& body : w.bodies)
-    if (body->state.base.given) beginWay(body->state.base, body->state.frames[0], dt);
+    if (body->state.base.given && !beginRide(*body, w.rigid.proxies()))
+      beginWay(body->state.base, body->state.frames[0], dt);
   for (auto& body : w.bodies)
     if (!body->state.asleep || body->work.motions.empty()) beginMotions(*body);
   w.listsStale = true;

@@ -94,10 +94,11 @@ double longestStep(World<Real>& w, double dt) {
   char text[200];
   if (stable < shortest) {
     std::snprintf(text, sizeof text,
-                  "body %u: its contacts need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
+                  "body %u: its contacts%s need a substep of %.3g s, which is %.0f substeps in 1/60 s; "
                   "maxSubstepsPerFrame is %d: raise it",
-                  w.bodies[w.stepLength.stiffest()]->id, asked, std::ceil(1.0 / 60 / asked),
-                  w.def.maxSubstepsPerFrame);
+                  w.bodies[w.stepLength.stiffest()]->id,
+                  w.bodies[w.stepLength.stiffest()]->state.base.ride.on() ? " or a light anchorBody" : "",
+                  asked, std::ceil(1.0 / 60 / asked), w.def.maxSubstepsPerFrame);
     w.failure = text;
   } else if (travel < shortest) {
     std::snprintf(text, sizeof text,

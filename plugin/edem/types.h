@@ -15,6 +15,12 @@ using Mat3 = Eigen::Matrix<Real, 3, 3>;
 template <class Real>
 using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
 
+/// A force and a torque, or what they give in a while.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N], [N s]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m], [N m s]
+};
+
 /// (R - 1) d for the unit quaternion q = (s, e), without subtracting nearly equal numbers: 2 s (e x d) + 2 e
 /// x (e x d).
 template <class Real>

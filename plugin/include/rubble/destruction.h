@@ -63,10 +63,10 @@ struct DestructibleBodyDef {
   /// free body, which is logged too. The asset may keep that state (rubble/prestress.h); where it is not this
   /// body's, it is solved anew and a warning logged.
   bool anchored = true;
-  /// What the anchors hold to in place of the world: a kinematic or static body of the world, such as a door
-  /// or a lift, with which they move. The body begins with its motion (`velocity` and `spin` are not looked
-  /// at), does not touch it where anchors hold it, and stays elements in any regime. Once that body has left
-  /// the world its anchors hold where they are.
+  /// What the anchors hold to in place of the world: a rigid body of the world, with which they move, such as
+  /// a door or a lift, or a truck: a dynamic one is pushed by them, and at least 1/50 as heavy. The body
+  /// begins with its motion (`velocity` and `spin` are not looked at), does not touch it where anchors hold
+  /// it, and stays elements in any regime. Once that body has left the world its anchors hold where they are.
   btRigidBody* anchorBody = nullptr;
   Regime regime = Regime::Elements;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
