@@ -43,6 +43,12 @@ Uncooked uncookedObject(const SceneObject& object, const LogFunction& log) {
           {}};
 }
 
+void requireAnchors(const SceneObject& object, const Uncooked& uncooked) {
+  if (!object.anchorBody.empty() && uncooked.asset && uncooked.asset->anchors.empty())
+    throw Error("anchor_body: is " + object.anchorBody + ", but " + object.asset.string() +
+                " has no anchors: `rubble cook --anchor` makes them");
+}
+
 std::vector<Uncooked> uncookedObjects(const Scene& scene, const LogFunction& log) {
   std::vector<Uncooked> all;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -50,6 +56,7 @@ std::vector<Uncooked> uncookedObjects(const Scene& scene, const LogFunction& log
       std::size_t same = 0;
       while (same < i && !readAlike(scene.objects[same], scene.objects[i])) ++same;
       Uncooked object = same < i ? all[same] : uncookedObject(scene.objects[i], log);
+      requireAnchors(scene.objects[i], object);
       if (object.asset) {
         requireSubsteps(scene, i, object.asset->volume(), object.asset->elementCount());
       } else {
@@ -77,7 +84,8 @@ void tellAnchors(const SceneObject& object, const Asset& asset, const LogFunctio
                 ": it must be the direction of one, in the world as the object stands in it");
   if (log)
     log(LogLevel::Info, std::to_string(asset.elementCount()) + " elements, " +
-                            std::to_string(asset.anchors.size()) + " anchors tie them to the world");
+                            std::to_string(asset.anchors.size()) + " anchors tie them to " +
+                            (object.anchorBody.empty() ? "the world" : object.anchorBody));
 }
 
 CookOptions cookOptions(const SceneObject& object, const SurfaceMesh& mesh, std::uint64_t seed) {

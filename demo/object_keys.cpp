@@ -293,10 +293,52 @@ Key<SceneObject> anchorBox() {
   return std::move(key).only("shapes and meshes", isCookedHere);
 }
 
+// Which bodies there are is known when the whole scene is read. Not listed where there is none, as
+// anchor_box.
+Key<SceneObject> anchorBody() {
+  Key<SceneObject> key = {
+      .name = "anchor_body",
+      .type = "`impactors.N` or `statics.N`",
+      .unit = "",
+      .meaning =
+          "what its anchors hold to in place of the world: they go with that body, and the object starts "
+          "with "
+          "its motion",
+      .read =
+          [](SceneObject& target, const Json& json, const Place& place) {
+            if (!json.is_string() || json.get_ref<const std::string&>().empty())
+              place.refuse("is " + shown(json), "must be impactors.N or statics.N");
+            target.anchorBody = json.get<std::string>();
+          },
+      .standard = [](const SceneObject& o) { return o.anchorBody.empty() ? "none" : o.anchorBody; },
+      .isChoice = true};
+  key.listNested = [](std::vector<std::string>& lines, const SceneObject& target, const std::string& path) {
+    if (!target.anchorBody.empty()) lines.push_back(path + " = " + target.anchorBody);
+  };
+  return std::move(key).must(
+      [](const SceneObject& o) {
+        const bool isTied = o.anchor || o.anchorBox || !isCookedHere(o);  // assets bring their own anchors
+        return o.anchorBody.empty() || isTied ? std::string()
+                                              : "must come with anchors: give anchor or anchor_box";
+      },
+      {"anchor", "anchor_box"});
+}
+
+// What anchors hold to a body starts with that body's motion.
+Table<SceneObject> withOwnMotion(Table<SceneObject> table) {
+  const std::size_t before = table.size();
+  table = withMotion(std::move(table));
+  for (std::size_t row = before; row < table.size(); ++row)
+    table[row] = std::move(table[row]).only("objects without anchor_body", [](const SceneObject& o) {
+      return o.anchorBody.empty();
+    });
+  return table;
+}
+
 }  // namespace
 
 const Table<SceneObject>& objectKeys() {
-  static const Table<SceneObject> table = withMotion(withPlacement<SceneObject>(
+  static const Table<SceneObject> table = withOwnMotion(withPlacement<SceneObject>(
       {
           file("mesh", &SceneObject::mesh, "closed surface to cook instead of a shape: OBJ, OFF, PLY or STL"),
           number<SceneObject>("scale", &SceneObject::scale, kMeshScale, "m", "length of one unit of the mesh")
@@ -342,6 +384,7 @@ const Table<SceneObject>& objectKeys() {
               .only("shapes and meshes", isCookedHere),
           anchor(),
           anchorBox(),
+          anchorBody(),
           number<SceneObject>("mass_damping", &SceneObject::massDamping, limits::kMassDamping, "1/s",
                               "decay rate of the deformation; the rigid motion is not damped"),
           word<SceneObject, Regime>(

@@ -237,6 +237,30 @@ void checkGravity(const Scene& scene, const Place& place) {
                  {"dust"});
 }
 
+// "impactors.0 to impactors.2".
+std::string entriesOf(const std::string& list, std::size_t count) {
+  if (count == 0) return "";
+  const std::string last = count == 1 ? "" : " to " + joined(list, std::to_string(count - 1));
+  return joined(list, "0") + last;
+}
+
+// They name a body that the scene has.
+void checkAnchorBodies(const Scene& scene, const Place& objects) {
+  const std::size_t moving = scene.impactors.size(), still = scene.statics.size();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const std::string& body = scene.objects[i].anchorBody;
+    if (body.empty() || entryNamed(body, "impactors", moving) || entryNamed(body, "statics", still)) continue;
+    std::string allowed = entriesOf("impactors", moving);
+    if (still > 0) allowed += (moving > 0 ? ", " : "") + entriesOf("statics", still);
+    objects.child(std::to_string(i))
+        .child("anchor_body")
+        .refuse("is " + body,
+                allowed.empty() ? "there are no impactors and no statics to hold to"
+                                : "must be one of: " + allowed,
+                {"impactors", "statics"});
+  }
+}
+
 std::filesystem::path dataFolder(const char* folder, const char* builtIn) {
   if (const char* data = std::getenv("RUBBLE_DATA")) return std::filesystem::path(data) / folder;
   return builtIn;
@@ -283,8 +307,15 @@ Scene loadScene(const std::string& nameOrPath, const std::vector<Override>& over
   scene.file = file.string();
   readObject(sceneKeys(), scene, document.json, {&document.origins, ""});
   checkGravity(scene, {&document.origins, "gravity"});
+  checkAnchorBodies(scene, {&document.origins, "objects"});
   scene.origins = std::move(document.origins);
   return scene;
+}
+
+std::optional<std::size_t> entryNamed(const std::string& path, const std::string& list, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (path == joined(list, std::to_string(i))) return i;
+  return std::nullopt;
 }
 
 std::string Scene::blamed(const std::string& path, std::vector<std::string> others) const {

@@ -44,6 +44,8 @@ struct SceneObject : Placement {
   std::optional<Eigen::Vector3d> anchor;  ///< the world's direction of the side that is tied to it
   /// What has its centroid in this is tied, too; in the mesh's coordinates, or the shape's about its centre.
   std::optional<Eigen::AlignedBox3d> anchorBox;
+  /// What the anchors hold to in place of the world: `impactors.0`, `statics.1`; empty: the world.
+  std::string anchorBody = {};
   double massDamping = 0;  ///< of the deformation [1/s]
   Regime regime = Regime::Elements;
   Material material;
@@ -141,6 +143,9 @@ std::filesystem::path sceneFolder();
 std::string sceneNames();
 /// Folder of the shaders, found alike.
 std::filesystem::path shaderFolder();
+
+/// Which entry of a list of `count` the path means, as `statics.1` does in `statics`.
+std::optional<std::size_t> entryNamed(const std::string& path, const std::string& list, std::size_t count);
 
 /// Every key of the scene with its value, defaults and presets spelt out: "objects.0.material.density =
 /// 2400". Two scenes with the same lines simulate the same.

@@ -8,10 +8,10 @@ namespace {
 // Fields of Material, DestructionDef and DestructibleBodyDef that messages name. Not every word with a
 // capital in it is one: kPa is none.
 constexpr const char* kFields[] = {
-    "youngsModulus",   "tensileStrength",  "compressiveStrength", "breakingAngle",      "stretchThreshold",
-    "springDamping",   "contactStiffness", "contactDamping",      "rollingFriction",    "bondWorkIndex",
-    "crushEfficiency", "sizeModulus",      "dustRadius",          "debrisSpeed",        "massDamping",
-    "maxEvents",       "substepSafety",    "maxDebris",           "maxSubstepsPerFrame"};
+    "youngsModulus",   "tensileStrength",  "compressiveStrength", "breakingAngle",       "stretchThreshold",
+    "springDamping",   "contactStiffness", "contactDamping",      "rollingFriction",     "bondWorkIndex",
+    "crushEfficiency", "sizeModulus",      "dustRadius",          "debrisSpeed",         "massDamping",
+    "maxEvents",       "substepSafety",    "maxDebris",           "maxSubstepsPerFrame", "anchorBody"};
 
 std::string keyOf(const std::string& field) {
   if (field == "maxDebris") return "debris.budget";

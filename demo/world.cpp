@@ -117,8 +117,10 @@ World::World(const Scene& scene, const Assets& assets, const LogFunction& log) :
     });
   checkOverlaps(scene, starting, log);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    std::vector<std::string> others = whatSubstepsDependOn();
+    if (const std::string& body = scene.objects[i].anchorBody; !body.empty()) others.push_back(body);
     refuseAt(
-        scene, i, [&] { addObject(scene.objects[i], assets[i]); }, whatSubstepsDependOn());
+        scene, i, [&] { addObject(scene.objects[i], assets[i]); }, others);
   }
 }
 
@@ -140,9 +142,16 @@ void World::addObject(const SceneObject& object, std::shared_ptr<const Asset> as
   def.model = object.model;
   def.velocity = toBullet(object.velocity);
   def.spin = toBullet(object.spin);
+  def.anchorBody = bodyNamed(object.anchorBody);
   def.massDamping = object.massDamping;
   def.regime = object.regime;
   m_destruction->addBody(def);
+}
+
+btRigidBody* World::bodyNamed(const std::string& path) const {
+  if (const auto i = entryNamed(path, "impactors", m_impactors.size())) return m_impactors[*i];
+  if (const auto i = entryNamed(path, "statics", m_statics.size())) return m_statics[*i];
+  return nullptr;
 }
 
 btRigidBody* World::addBody(const SceneBody& def) {

@@ -48,6 +48,8 @@ class World {
   World(const Scene& scene, const LogFunction& log);
   void addObject(const SceneObject& object, std::shared_ptr<const Asset> asset);
   btRigidBody* addBody(const SceneBody& def);
+  // What the scene names `statics.1`; null for an empty name.
+  btRigidBody* bodyNamed(const std::string& path) const;
   void finishTick(double seconds);
 
   Scene m_scene;

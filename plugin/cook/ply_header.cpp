@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -11,39 +11,41 @@
 namespace rubble::cooking {
 namespace {
 
-constexpr std::array<std::array<std::string_view, 2>, 8> kTypes = {{{"char", "int8"},
-                                                                    {"uchar", "uint8"},
-                                                                    {"short", "int16"},
-                                                                    {"ushort", "uint16"},
-                                                                    {"int", "int32"},
-                                                                    {"uint", "uint32"},
-                                                                    {"float", "float32"},
-                                                                    {"double", "float64"}}};
+struct NamedPlyType {
+  std::array<std::string_view, 2> names;
+  PlyType type;
+};
+constexpr std::array<NamedPlyType, 8> kPlyTypes = {{{{"char", "int8"}, PlyType::Char},
+                                                    {{"uchar", "uint8"}, PlyType::UChar},
+                                                    {{"short", "int16"}, PlyType::Short},
+                                                    {{"ushort", "uint16"}, PlyType::UShort},
+                                                    {{"int", "int32"}, PlyType::Int},
+                                                    {{"uint", "uint32"}, PlyType::UInt},
+                                                    {{"float", "float32"}, PlyType::Float},
+                                                    {{"double", "float64"}, PlyType::Double}}};
 
-// A type by the first of its two names; empty if it is none.
-std::string_view typeOf(const std::string& word) {
-  for (const auto& names : kTypes)
-    if (word == names[0] || word == names[1]) return names[0];
-  return {};
+std::optional<PlyType> plyTypeOf(const std::string& word) {
+  for (const NamedPlyType& known : kPlyTypes)
+    if (word == known.names[0] || word == known.names[1]) return known.type;
+  return std::nullopt;
 }
 
-class Header {
+class PlyHeader {
  public:
-  explicit Header(const std::string& bytes) : m_bytes(bytes) {}
+  explicit PlyHeader(const std::string& bytes) : m_bytes(bytes) {}
 
-  std::string plain() {
+  PlyLayout read() {
     if (take() != "ply") refuse("does not start with ply", "ply");
     while (readLine()) {
     }
-    constexpr int kVertexNumbers = 3;
-    if (m_format.empty() || m_coordinates != kVertexNumbers || m_faceLists != 1)
-      throw Error(
-          "its PLY header names no mesh; allowed: a format, vertices with x, y and z, and faces with "
-          "vertex_indices, each once");
-    return "ply\nformat " + m_format + " 1.0\n" + m_plain + "end_header\n" + m_bytes.substr(m_at);
+    if (!m_hasFormat) throw Error("its PLY header names no format; allowed: " + std::string(kFormats));
+    m_layout.bodyAt = m_at;
+    return std::move(m_layout);
   }
 
  private:
+  static constexpr const char* kFormats = "ascii, binary_little_endian, binary_big_endian";
+
   [[noreturn]] void refuse(const std::string& wrong, const std::string& allowed) const {
     throw Error("line " + std::to_string(m_line) + " of its PLY header " + wrong + "; allowed: " + allowed);
   }
@@ -80,63 +82,55 @@ class Header {
   }
 
   void readFormat() {
-    m_format = word();
-    for (const char* known : {"ascii", "binary_little_endian", "binary_big_endian"})
-      if (m_format == known) return;
-    refuse("names no format", "ascii, binary_little_endian, binary_big_endian");
+    const std::string format = word();
+    if (format == "ascii") {
+      m_layout.format = PlyFormat::Ascii;
+    } else if (format == "binary_little_endian") {
+      m_layout.format = PlyFormat::LittleEndian;
+    } else if (format == "binary_big_endian") {
+      m_layout.format = PlyFormat::BigEndian;
+    } else {
+      refuse("names no format", kFormats);
+    }
+    m_hasFormat = true;
   }
 
   void readElement() {
-    m_element = word();
-    std::uint64_t count = 0;
-    if (!(m_words >> count)) refuse("has no number of elements", "element, name, number");
-    const bool isUsed = m_element == "vertex" || m_element == "face";
-    m_plain += "element " + (isUsed ? m_element : "unused") + ' ' + std::to_string(count) + '\n';
+    PlyElement& element = m_layout.elements.emplace_back();
+    element.name = word();
+    if (!(m_words >> element.count)) refuse("has no number of elements", "element, name, number");
   }
 
   void readProperty() {
-    const std::string first = word();
-    if (m_element.empty()) refuse("is a property of nothing", "properties behind their element");
-    if (first == "list") return readList();
-    const std::string_view type = typeOf(first);
-    const std::string name = word();
-    if (type.empty() || name.empty()) refuse("is no property", "property, type, name");
-    const bool isCoordinate = m_element == "vertex" && (name == "x" || name == "y" || name == "z");
-    if (isCoordinate && type != "float" && type != "double")
-      refuse("makes a coordinate a " + std::string(type), "float and double");
-    m_coordinates += isCoordinate;
-    m_plain += "property " + std::string(type) + ' ' + (isCoordinate ? name : "unused") + '\n';
-  }
-
-  // Counts in 32 bits could claim gigabytes, and CGAL believes them. In text they are written like any other.
-  void readList() {
-    std::string_view count = typeOf(word());
-    const std::string_view item = typeOf(word());
-    const std::string name = word();
-    if (count.empty() || item.empty() || name.empty())
-      refuse("is no list", "property list, type, type, name");
-    if (m_format == "ascii") count = "ushort";
-    if (count != "uchar" && count != "ushort" && count != "char" && count != "short")
-      refuse("counts the items of a list as " + std::string(count), "uchar, ushort, char and short");
-    const bool isFace = m_element == "face" && (name == "vertex_indices" || name == "vertex_index");
-    if (isFace && item != "int" && item != "uint")
-      refuse("names vertices by " + std::string(item), "int and uint");
-    m_faceLists += isFace;
-    m_plain += "property list " + std::string(count) + ' ' + std::string(item) + ' ' +
-               (isFace ? "vertex_indices" : "unused") + '\n';
+    if (m_layout.elements.empty()) refuse("is a property of nothing", "properties behind their element");
+    PlyProperty property;
+    std::string type = word();
+    property.isList = type == "list";
+    if (property.isList) {
+      const std::optional<PlyType> count = plyTypeOf(word());
+      if (!count || *count == PlyType::Float || *count == PlyType::Double)
+        refuse("is no list", "property list, whole type, type, name");
+      property.countType = *count;
+      type = word();
+    }
+    const std::optional<PlyType> known = plyTypeOf(type);
+    property.name = word();
+    if (!known || property.name.empty()) refuse("is no property", "property, type, name");
+    property.type = *known;
+    m_layout.elements.back().properties.push_back(property);
   }
 
   const std::string& m_bytes;
   std::size_t m_at = 0, m_line = 0;
   std::istringstream m_words;
-  std::string m_format, m_element, m_plain;
-  int m_coordinates = 0, m_faceLists = 0;
+  PlyLayout m_layout;
+  bool m_hasFormat = false;
 };
 
 }  // namespace
 
-std::string plainPly(const std::string& bytes) {
-  return Header(bytes).plain();
+PlyLayout readPlyHeader(const std::string& bytes) {
+  return PlyHeader(bytes).read();
 }
 
 }  // namespace rubble::cooking

@@ -1,7 +1,6 @@
 #include "cook/polygon_file.h"
 
 #include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -35,8 +34,6 @@ bool read(std::istream& stream, PolygonFormat format, Bounded<Point>& points, Bo
   switch (format) {
     case PolygonFormat::Off:
       return CGAL::IO::read_OFF(stream, points, polygons, quiet);
-    case PolygonFormat::Ply:
-      return CGAL::IO::read_PLY(stream, points, polygons, quiet);
     case PolygonFormat::Stl:
       break;
   }

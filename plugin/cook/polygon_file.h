@@ -29,8 +29,8 @@ struct PolygonSoup {
   std::vector<std::string> materialNames;
 };
 
-/// Formats that are read here: `Ply` as plainPly gives it, `Stl` in its text form.
-enum class PolygonFormat { Off, Ply, Stl };
+/// Formats that are read here: `Stl` in its text form.
+enum class PolygonFormat { Off, Stl };
 
 /// Empty if the bytes are not of that format.
 PolygonSoup parsePolygons(std::string bytes, PolygonFormat format);

@@ -12,7 +12,7 @@
 #include "base/input_file.h"
 #include "base/number_text.h"
 #include "cook/obj_file.h"
-#include "cook/ply_header.h"
+#include "cook/ply_file.h"
 #include "cook/polygon_file.h"
 #include "cook/stl_file.h"
 #include "cook/triangulation.h"
@@ -32,10 +32,6 @@ PolygonSoup parseOff(std::string bytes) {
   return parsePolygons(std::move(bytes), PolygonFormat::Off);
 }
 
-PolygonSoup parsePly(std::string bytes) {
-  return parsePolygons(plainPly(bytes), PolygonFormat::Ply);
-}
-
 PolygonSoup parseStl(std::string bytes) {
   if (auto soup = parseBinaryStl(bytes)) return *std::move(soup);
   return parsePolygons(std::move(bytes), PolygonFormat::Stl);
@@ -49,7 +45,7 @@ struct Ending {
 constexpr std::array<Ending, 4> kEndings = {
     {{".obj", [](std::string bytes) { return parseObj(bytes); }, "OBJ"},
      {".off", parseOff, "OFF"},
-     {".ply", parsePly, "PLY"},
+     {".ply", [](std::string bytes) { return parsePly(bytes); }, "PLY"},
      {".stl", parseStl, "STL"}}};
 
 const Ending& endingOf(const std::filesystem::path& file) {

@@ -37,8 +37,9 @@ SurfaceMesh boxMesh(const Eigen::Vector3d& size, const Eigen::Vector3d& centre =
 /// into triangles. Vertices at exactly the same place become one where the file's own indices leave edges
 /// open, as in every STL and at the seams of textures; nothing else is mended. Of OBJ normals, texture
 /// coordinates (0, 0 where a face of a file that has some gives none) and the names behind `usemtl` are read,
-/// not what the material files say of them; other formats give the shape alone. Throws rubble::Error that
-/// names the file and what is wrong with it; whether the surface is closed is for `cook` to say.
+/// not what the material files say of them; of PLY normals and texture coordinates; other formats give the
+/// shape alone. Throws rubble::Error that names the file and what is wrong with it; whether the surface is
+/// closed is for `cook` to say.
 SurfaceMesh readMesh(const std::filesystem::path& file, double scale = 1);
 
 struct CookOptions {
