@@ -36,7 +36,8 @@ btVector3 atMost(const btVector3& reaction, const btVector3& load) {
 void Destruction::Impl::coupleLinks() {
   for (std::size_t p = 0; p < proxies.size(); ++p)
     for (std::size_t q = 0; q < proxies.size(); ++q) {
-      if (p == q || !proxies[p].mobility || !proxies[q].mobility) continue;
+      if (p == q || !touched[p].link || !touched[q].link) continue;
+      if (!proxies[p].mobility || !proxies[q].mobility) continue;
       if (touched[p].link->m_multiBody != touched[q].link->m_multiBody) continue;
       proxies[p].coupled.push_back(
           {std::uint32_t(q), bullet::mobilityOf(*touched[p].link, *touched[q].link)});

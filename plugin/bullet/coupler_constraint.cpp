@@ -30,7 +30,9 @@ void CouplerConstraint::solveConstraintObsolete(btSolverBody& own, btSolverBody&
     if (touched.given || !touched.rigid || touched.rigid->getCompanionId() < 0) continue;
     btSolverBody& solver = base[touched.rigid->getCompanionId()];
     if (solver.m_originalBody != touched.rigid) continue;
-    solver.internalApplyImpulse(touched.deltaVelocity, touched.deltaSpin, 1);
+    // What is locked of its motion the substeps have left out.
+    solver.internalGetDeltaLinearVelocity() += touched.deltaVelocity;
+    solver.internalGetDeltaAngularVelocity() += touched.deltaSpin;
     touched.given = true;
   }
 }

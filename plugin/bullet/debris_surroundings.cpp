@@ -134,10 +134,14 @@ debris::DebrisSurface DebrisSurroundings::surface(std::uint32_t id) const {
   s.velocity = proxy.velocity;
   s.spin = proxy.spin;
   if (!object.rigid) return s;
+  if (proxy.mobility) {
+    s.inverseMass = proxy.mobility->diagonal().head<3>();
+    s.inverseInertia = proxy.mobility->bottomRightCorner<3, 3>();
+    return s;
+  }
   const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
-  const Eigen::DiagonalMatrix<double, 3> free(toEigen(object.rigid->getAngularFactor()));
-  s.inverseMass = proxy.inverseMass * toEigen(object.rigid->getLinearFactor());
-  s.inverseInertia = free * (turn * proxy.inverseInertia.asDiagonal() * turn.transpose()) * free;
+  s.inverseMass.setConstant(proxy.inverseMass);
+  s.inverseInertia = turn * proxy.inverseInertia.asDiagonal() * turn.transpose();
   return s;
 }
 

@@ -17,15 +17,22 @@ double kinetic(double mass, const Eigen::Matrix3d& inertia, const btVector3& vel
   return 0.5 * (mass * v.squaredNorm() + w.dot(inertia * w));
 }
 
+// World axes; 0 about an axis that it cannot turn about.
+Eigen::Matrix3d inertiaOf(const edem::RigidProxy& proxy) {
+  if (proxy.mobility)
+    return proxy.mobility->bottomRightCorner<3, 3>().completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
+  const Eigen::Vector3d inertia =
+      proxy.inverseInertia.unaryExpr([](double inverse) { return inverse > 0 ? 1 / inverse : 0; });
+  return turn * inertia.asDiagonal() * turn.transpose();
+}
+
 }  // namespace
 
 void EnergyAlarm::begin(std::span<const edem::RigidProxy> proxies) {
   m_begun.clear();
   for (const edem::RigidProxy& proxy : proxies) {
-    const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
-    const Eigen::Vector3d inertia =
-        proxy.inverseInertia.unaryExpr([](double inverse) { return inverse > 0 ? 1 / inverse : 0; });
-    m_begun.push_back({proxy.position, turn * inertia.asDiagonal() * turn.transpose()});
+    m_begun.push_back({proxy.position, inertiaOf(proxy)});
   }
 }
 

@@ -22,6 +22,7 @@
 
 #include "base/hash.h"
 #include "bullet/convert.h"
+#include "bullet/locked_motion.h"
 #include "bullet/multibody_links.h"
 
 namespace rubble::bullet {
@@ -308,6 +309,14 @@ edem::RigidProxy RigidProxies::make(const btCollisionObject& object,
     proxy.inverseInertia = toEigen(rigid->getInvInertiaDiagLocal());
     proxy.angularAcceleration =
         toEigen(btVector3(rigid->getInvInertiaTensorWorld() * rigid->getTotalTorque()));
+    if ((proxy.mobility = lockedMobility(*rigid))) {
+      const auto most = [](const Eigen::Matrix3d& share) {
+        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(share, Eigen::EigenvaluesOnly).eigenvalues()[2];
+      };
+      const double moves = most(proxy.mobility->topLeftCorner<3, 3>());
+      if (moves > 0) proxy.inverseMass = moves;  // one that only turns is no static one
+      proxy.inverseInertia.setConstant(most(proxy.mobility->bottomRightCorner<3, 3>()));
+    }
   }
   if (isFinite(proxy)) {
     Eigen::Isometry3d body(proxy.orientation);

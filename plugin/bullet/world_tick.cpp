@@ -14,6 +14,7 @@
 #include "bullet/body_impl.h"
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
+#include "bullet/locked_motion.h"
 #include "bullet/multibody_links.h"
 #include "bullet/swept_bodies.h"
 #include "debris/bond.h"
@@ -289,9 +290,13 @@ void Destruction::Impl::advance(double dt) {
     bullet::TouchedBody& t = touched[p];
     if (!t.rigid) continue;
     const edem::RigidProxy& s = start[p];
-    const Eigen::Vector3d change = double(t.rigid->getInvMass()) * proxies[p].impulse;
-    t.deltaVelocity = toBullet(change);
+    Eigen::Vector3d change = double(t.rigid->getInvMass()) * proxies[p].impulse;
     t.deltaSpin = t.rigid->getInvInertiaTensorWorld() * toBullet(proxies[p].angularImpulse);
+    if (const auto locked = bullet::lockedMobility(*t.rigid)) {
+      change = locked->topLeftCorner<3, 3>() * proxies[p].impulse;
+      t.deltaSpin = toBullet(Eigen::Vector3d(locked->bottomRightCorner<3, 3>() * proxies[p].angularImpulse));
+    }
+    t.deltaVelocity = toBullet(change);
     // Where Bullet brings it under the same impulses, taken as one at the tick's start.
     const btTransform begin(toBullet(s.orientation), toBullet(s.position));
     btTransformUtil::integrateTransform(

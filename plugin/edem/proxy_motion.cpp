@@ -3,6 +3,22 @@
 #include <algorithm>
 
 namespace rubble::edem {
+namespace {
+
+// What an impulse changes of its velocity and spin.
+Twist response(const RigidProxy& proxy, const Wrench& impulse) {
+  if (proxy.mobility) {
+    Eigen::Matrix<double, 6, 1> push;
+    push << impulse.force, impulse.torque;
+    push = *proxy.mobility * push;
+    return {push.head<3>(), push.tail<3>()};
+  }
+  const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
+  return {proxy.inverseMass * impulse.force,
+          turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * impulse.torque))};
+}
+
+}  // namespace
 
 RigidPose poseOf(const RigidProxy& proxy) {
   return {proxy.position, proxy.velocity, proxy.spin, proxy.orientation};
@@ -16,10 +32,11 @@ void setPose(RigidProxy& proxy, const RigidPose& pose) {
 }
 
 void pushProxy(RigidProxy& proxy, const Wrench& impulse) {
-  const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
-  proxy.velocity += proxy.inverseMass * impulse.force;
-  if (proxy.isDynamic())
-    proxy.spin += turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * impulse.torque));
+  if (proxy.isDynamic()) {
+    const Twist change = response(proxy, impulse);
+    proxy.velocity += change.linear;
+    proxy.spin += change.angular;
+  }
   proxy.impulse += impulse.force;
   proxy.angularImpulse += impulse.torque;
   proxy.anchorImpulse += impulse.force;
@@ -78,22 +95,17 @@ void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, do
     books.bullet.linear -= kick * state.force;
     books.bullet.angular -= kick * ((proxy.position - books.centre).cross(state.force) + state.torque);
     books.bullet.size += kick * (state.size + state.anchorForce.norm());
-    if (proxy.mobility) {
+    for (const RigidProxy::Coupling& other : proxy.coupled) {
       Eigen::Matrix<double, 6, 1> push;
       push << state.force, state.torque;
-      for (const RigidProxy::Coupling& other : proxy.coupled) {
-        const Eigen::Matrix<double, 6, 1> moved = kick * (other.mobility * push);
-        proxies[other.proxy].velocity += moved.head<3>();
-        proxies[other.proxy].spin += moved.tail<3>();
-      }
-      push = *proxy.mobility * push;
-      proxy.velocity += kick * (push.head<3>() + proxy.acceleration);
-      proxy.spin += kick * (push.tail<3>() + proxy.angularAcceleration);
-    } else if (proxy.isDynamic()) {
-      const Eigen::Matrix3d turn = proxy.orientation.toRotationMatrix();
-      proxy.velocity += kick * (proxy.inverseMass * state.force + proxy.acceleration);
-      proxy.spin += kick * (turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * state.torque)) +
-                            proxy.angularAcceleration);
+      push = kick * (other.mobility * push);
+      proxies[other.proxy].velocity += push.head<3>();
+      proxies[other.proxy].spin += push.tail<3>();
+    }
+    if (proxy.isDynamic()) {
+      const Twist change = response(proxy, {state.force, state.torque});
+      proxy.velocity += kick * (change.linear + proxy.acceleration);
+      proxy.spin += kick * (change.angular + proxy.angularAcceleration);
     }
     const double givenNext = -power(state.force, state.torque);
     books.bullet.work.add(given, givenNext);

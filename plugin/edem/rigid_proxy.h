@@ -24,8 +24,9 @@ struct RigidProxy {
   Eigen::Vector3d angularAcceleration = Eigen::Vector3d::Zero();  ///< [rad/s^2]
   double inverseMass = 0;                                    ///< 0: static or moved by the application [1/kg]
   Eigen::Vector3d inverseInertia = Eigen::Vector3d::Zero();  ///< along its own axes [1/(kg m^2)]
-  /// Of a link of an articulated body: what an impulse on it and one of rotation about its centre change of
-  /// its velocity and spin, world axes. Then the two above are its largest share of each.
+  /// Of a link of an articulated body, or a body that is not free to move in every way: what an impulse on it
+  /// and one of rotation about its centre change of its velocity and spin, world axes. Then the two above are
+  /// its largest share of each.
   std::optional<Eigen::Matrix<double, 6, 6>> mobility;
   /// What the same changes of other links of that body.
   struct Coupling {

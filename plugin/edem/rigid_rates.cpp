@@ -27,9 +27,12 @@ double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& matrix) {
 double mobilityAt(const RigidProxy& proxy, const Eigen::Vector3d& from, double size) {
   const Eigen::Vector3d& turns = proxy.inverseInertia;
   const double reach = proxy.reach(), lever2 = std::min(from.squaredNorm(), reach * reach);
-  if (proxy.mobility) {  // both shares at once: (a + b)^2 is 2 (a^2 + b^2) at most
+  if (proxy.mobility) {
     const double lever = std::min(from.norm() + size, reach);
-    return 2 * double(1 + proxy.coupled.size()) * (proxy.inverseMass + lever * lever * turns.maxCoeff());
+    // Both shares at once where they go together: (a + b)^2 is 2 (a^2 + b^2) at most.
+    const double together = proxy.mobility->topRightCorner<3, 3>().isZero(0) ? 1 : 2;
+    return together * double(1 + proxy.coupled.size()) *
+           (proxy.inverseMass + lever * lever * turns.maxCoeff());
   }
   // What is long and narrow turns easily about its axis alone, and near it: by the trace of that matrix.
   Eigen::AlignedBox3d all;
