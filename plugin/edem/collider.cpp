@@ -121,7 +121,8 @@ void listEdges(Hull& hull) {
         if (at == other.vertices.end()) continue;
         if ((at + 1 == other.vertices.end() ? other.vertices.front() : at[1]) != from) continue;
         const double sharpness = 1 - face.normal.dot(other.normal);
-        if (sharpness > kLeastSharpness) hull.edges.push_back({from, to - from, sharpness});
+        if (sharpness > kLeastSharpness)
+          hull.edges.push_back({from, to - from, sharpness, {face.normal, other.normal}});
       }
     }
   }

@@ -2,6 +2,7 @@
 // their signed distance in closed form; triangle meshes.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -22,6 +23,7 @@ struct Hull {
   struct Edge {
     Eigen::Vector3d from, way;  ///< its ends are from and from + way [m]
     double sharpness;           ///< 1 - cos of the angle between the normals: 1 of a right edge, 2 of a blade
+    std::array<Eigen::Vector3d, 2> sides;  ///< the normals
   };
   std::vector<Face> faces;
   std::vector<Eigen::Vector3d> corners;  ///< each vertex once; written by listCorners [m]

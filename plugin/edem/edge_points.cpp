@@ -43,7 +43,8 @@ double edgeWeights(const RigidProxy& proxy, const CellFaces& cells, const Eigen:
     if (!hasEdges(part)) continue;
     const Eigen::Vector3d centre = part.place.inverse(Eigen::Isometry) * at;
     visitEdgeRows(part, h, centre, reach + part.rounding,
-                  [&](const EdgeRow& row, const EdgeRow::Range& near, std::uint32_t) {
+                  [&](const EdgeRow& row, const EdgeRow::Range& near, std::uint32_t,
+                      const std::array<Eigen::Vector3d, 2>&) {
                     sum += row.weight() * std::min(near.count(), row.most(2 * (size + part.rounding)));
                   });
   }
@@ -53,9 +54,9 @@ double edgeWeights(const RigidProxy& proxy, const CellFaces& cells, const Eigen:
 double edgeWeight(const RigidProxy& proxy) {
   double sum = 0;
   for (const Collider& part : proxy.parts)
-    visitSharpEdges(part, [&](const Eigen::Vector3d&, const Eigen::Vector3d& way, double sharpness) {
-      sum += 0.5 * sharpness * way.norm();
-    });
+    visitSharpEdges(part,
+                    [&](const Eigen::Vector3d&, const Eigen::Vector3d& way, double sharpness,
+                        const std::array<Eigen::Vector3d, 2>&) { sum += 0.5 * sharpness * way.norm(); });
   return sum;
 }
 

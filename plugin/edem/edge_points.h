@@ -2,6 +2,7 @@
 // the points of its edges.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "edem/cell_faces.h"
@@ -42,7 +43,8 @@ inline bool hasEdges(const Collider& part) {
   return part.kind == Collider::Kind::Box || part.kind == Collider::Kind::Hull;
 }
 
-/// visit(from, way, sharpness) for every edge of a box or a hull, in the part's own frame.
+/// visit(from, way, sharpness, normals of its sides) for every edge of a box or a hull, in the part's own
+/// frame.
 template <class Visit>
 void visitSharpEdges(const Collider& part, Visit&& visit) {
   if (part.kind == Collider::Kind::Box) {
@@ -52,21 +54,25 @@ void visitSharpEdges(const Collider& part, Visit&& visit) {
         way[axis] = 2 * part.size[axis];
         if (side & 1) from[(axis + 1) % 3] *= -1;
         if (side & 2) from[(axis + 2) % 3] *= -1;
-        visit(from, way, 1.0);
+        std::array<Eigen::Vector3d, 2> sides = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+        sides[0][(axis + 1) % 3] = side & 1 ? 1 : -1;
+        sides[1][(axis + 2) % 3] = side & 2 ? 1 : -1;
+        visit(from, way, 1.0, sides);
       }
     }
   } else if (part.kind == Collider::Kind::Hull) {
-    for (const Hull::Edge& edge : part.hull->edges) visit(edge.from, edge.way, edge.sharpness);
+    for (const Hull::Edge& edge : part.hull->edges) visit(edge.from, edge.way, edge.sharpness, edge.sides);
   }
 }
 
-/// visit(row, range, number from 1) for those of them that have points between their ends which may be nearer
-/// than `reach` to `point`, in the part's own frame.
+/// visit(row, range, number from 1, normals of its sides) for those of them that have points between their
+/// ends which may be nearer than `reach` to `point`, in the part's own frame.
 template <class Visit>
 void visitEdgeRows(const Collider& part, double h, const Eigen::Vector3d& point, double reach,
                    Visit&& visit) {
   std::uint32_t number = 0;
-  visitSharpEdges(part, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& way, double sharpness) {
+  visitSharpEdges(part, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& way, double sharpness,
+                            const std::array<Eigen::Vector3d, 2>& sides) {
     ++number;
     // Most edges are far: without a row.
     const double length2 = way.squaredNorm(), along = (point - from).dot(way);
@@ -75,7 +81,7 @@ void visitEdgeRows(const Collider& part, double h, const Eigen::Vector3d& point,
       return;
     const EdgeRow row(from, way, sharpness, h);
     const EdgeRow::Range range = row.within(point, reach);
-    if (range.count() > 0) visit(row, range, number);
+    if (range.count() > 0) visit(row, range, number, sides);
   });
 }
 

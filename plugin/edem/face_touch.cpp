@@ -21,6 +21,9 @@ constexpr double kEndWeight = 0.5;
 // An edge this near to another part of its body, over h, is in a seam. So is a point of an edge this near to
 // two cells that a spring joins, and in both: where they gape by less it does not fall between them.
 constexpr double kSeam = 1e-3;
+// A side of a rigid body that is beyond one of a cell by less than this, over h, is flush with it: its edge
+// presses the cell. Beyond that the cell's vertices, as far inside the body, bear before they are as deep.
+constexpr double kFlush = 0.05;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
@@ -68,6 +71,15 @@ void visitBalls(const Collider& part, Visit&& visit) {
     case Collider::Kind::Cylinder:
       return;  // all rim
   }
+}
+
+// Normals of the sides of a box that meet in a corner, axes of the element; none of other parts.
+std::span<const Eigen::Vector3d> sidesAt(const Collider& part, std::uint32_t corner, const ElementPose& pose,
+                                         std::array<Eigen::Vector3d, 3>& sides) {
+  if (part.kind != Collider::Kind::Box) return {};
+  for (int axis = 0; axis < 3; ++axis)
+    sides[axis] = pose.turn.transpose() * (corner >> axis & 1 ? -1 : 1) * part.place.linear().col(axis);
+  return sides;
 }
 
 }  // namespace
@@ -205,8 +217,9 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
 }
 
 bool FaceTouch::ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                        const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack) {
-  const NearestFace face(cells, exposure, element, centre, radius);
+                        const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack,
+                        std::span<const Eigen::Vector3d> sides) {
+  const NearestFace face(cells, exposure, element, centre, radius, sides, kFlush * std::sqrt(cells.unit));
   const double depth = face.inside ? radius + face.distance : radius - face.distance;
   if (!(depth > 0) || !std::isfinite(face.distance)) return false;
   Eigen::Vector3d normal = -face.normal;
@@ -224,6 +237,7 @@ void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposu
                           std::uint32_t element, const ElementPose& pose) {
   const bool corners = hasCorners(*near.part);
   std::uint32_t corner = 0;
+  std::array<Eigen::Vector3d, 3> sides;
   visitBalls(*near.part, [&](const Eigen::Vector3d& centre, double radius, double weight) {
     ++corner;
     const Eigen::Vector3d from = centre - pose.at;
@@ -231,7 +245,8 @@ void FaceTouch::findBalls(const Near& near, const CellFaces& cells, const Exposu
     if (from.squaredNorm() >= within * within) return;
     const Eigen::Vector3d c = pose.turn.transpose() * from;
     FaceHit hit;
-    if (!ballHit(cells, exposure, element, c, radius, hit)) return;
+    if (!ballHit(cells, exposure, element, c, radius, hit, 0, sidesAt(*near.part, corner - 1, pose, sides)))
+      return;
     if (hit.beyond > 0 && !corners) return;
     hit.weight = weight;
     if (corners) hit.corner = {near.index, corner};
@@ -245,12 +260,16 @@ void FaceTouch::findEdgePoints(const Near& near, const CellFaces& cells, const E
   const double h = std::sqrt(cells.unit), reach = cells.reach[element] + part.rounding;
   const Eigen::Vector3d centre = part.place.inverse(Eigen::Isometry) * pose.at;
   visitEdgeRows(part, h, centre, reach,
-                [&](const EdgeRow& row, const EdgeRow::Range& range, std::uint32_t number) {
+                [&](const EdgeRow& row, const EdgeRow::Range& range, std::uint32_t number,
+                    const std::array<Eigen::Vector3d, 2>& normals) {
+                  std::array<Eigen::Vector3d, 2> sides;
+                  for (unsigned s = 0; s < 2; ++s)
+                    sides[s] = pose.turn.transpose() * (part.place.linear() * normals[s]);
                   for (std::uint32_t p = range.first; p < range.last; ++p) {
                     const Eigen::Vector3d at = part.place * row.at(p);
                     FaceHit hit;
                     if (!ballHit(cells, exposure, element, pose.turn.transpose() * (at - pose.at),
-                                 part.rounding, hit, kSeam * h))
+                                 part.rounding, hit, kSeam * h, sides))
                       continue;
                     if (isInAnother(near, at, kSeam * h)) continue;
                     hit.weight = row.weight();

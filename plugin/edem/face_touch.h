@@ -127,9 +127,10 @@ class FaceTouch {
   void findRimDeepest(const Rim& rim, double rounding, CornerName name, const CellFaces& cells,
                       const Exposure& exposure, std::uint32_t element);
   // The hit of a ball, axes of the element, but for its weight. It is in the cell that is out of it by less
-  // than `slack` [m].
+  // than `slack` [m]. `sides`: see NearestFace.
   static bool ballHit(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                      const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack = 0);
+                      const Eigen::Vector3d& centre, double radius, FaceHit& hit, double slack = 0,
+                      std::span<const Eigen::Vector3d> sides = {});
   void findBalls(const Near& near, const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                  const ElementPose& pose);
 

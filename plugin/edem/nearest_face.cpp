@@ -5,13 +5,25 @@
 #include "edem/triangle.h"
 
 namespace rubble::edem {
+namespace {
+
+// Least cosine between two sides that look the same way.
+constexpr double kAlike = 0.99;
+
+}  // namespace
+
 NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                         const Eigen::Vector3d& centre, double radius) {
+                         const Eigen::Vector3d& centre, double radius, std::span<const Eigen::Vector3d> sides,
+                         double flush) {
+  const auto isAlike = [&](const CellFaces::Face& face) {
+    return std::any_of(sides.begin(), sides.end(),
+                       [&](const Eigen::Vector3d& side) { return side.dot(face.normal) > kAlike; });
+  };
   const std::span<const CellFaces::Face> faces = cells.of(element);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const double above = faces[f].normal.dot(centre) - faces[f].offset;
     if (exposure.faces[cells.firstFace[element] + f])
-      inside = inside && above <= 0;
+      inside = inside && (above <= 0 || (above <= flush && isAlike(faces[f])));
     else
       beyond = std::max(beyond, above);
   }
@@ -20,7 +32,7 @@ NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::
     const CellFaces::Face& face = faces[f];
     const double height = face.normal.dot(centre) - face.offset;
     if (inside) {
-      if (-height >= distance) continue;
+      if (-height >= distance || isAlike(face)) continue;
       distance = -height;
       at = centre - height * face.normal;
       normal = face.normal;

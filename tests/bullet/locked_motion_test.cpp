@@ -47,7 +47,7 @@ struct LockedWorld : BulletWorld {
   void run(int ticks) {
     for (int tick = 0; tick < ticks; ++tick) world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
   }
-  btBoxShape barShape{{btScalar(kBarLength / 2), btScalar(0.05), btScalar(0.05)}};
+  btBoxShape barShape{{btScalar(kBarLength / 2), btScalar(0.05), btScalar(0.1)}};
 };
 
 // What strikes with its end and cannot turn bounces as what strikes with its middle, back at the speed it
@@ -77,7 +77,7 @@ TEST(LockedMotion, ATurnstileTurnsAboutItsAxisAndStaysWhereItIs) {
   LockedWorld w;
   const double r = 0.5;
   const btVector3 middle(0, 2, 0);
-  DestructibleBody* cube = w.addCube({btScalar(r), 2, btScalar(-0.12)}, false, {0, 0, btScalar(kBlowSpeed)});
+  DestructibleBody* cube = w.addCube({btScalar(r), 2, btScalar(-0.17)}, false, {0, 0, btScalar(kBlowSpeed)});
   btRigidBody* bar = w.addBar(middle);
   bar->setLinearFactor({0, 0, 0});
   bar->setAngularFactor({0, 1, 0});
@@ -101,8 +101,6 @@ TEST(LockedMotion, ATurnstileTurnsAboutItsAxisAndStaysWhereItIs) {
 TEST(LockedMotion, APlateThatOnlySinksStaysLevel) {
   LockedWorld w;
   w.addCube({btScalar(0.4), btScalar(0.5 * kCubeSide), 0}, true, {0, 0, 0});
-  w.barShape.setImplicitShapeDimensions(w.barShape.getImplicitShapeDimensions() +
-                                        btVector3(0, 0, btScalar(0.05)));
   btRigidBody* plate = w.addBar({0, btScalar(kCubeSide + 0.05), 0});
   plate->setLinearFactor({0, 1, 0});
   plate->setAngularFactor({0, 0, 0});
@@ -115,7 +113,7 @@ TEST(LockedMotion, APlateThatOnlySinksStaysLevel) {
     EXPECT_EQ(plate->getWorldTransform().getBasis(), btMatrix3x3::getIdentity()) << tick;
   }
   const double sag = 2 * kForce / (material("concrete_soft").youngsModulus * kCubeSide);
-  EXPECT_GT(lowest, kCubeSide + 0.05 - 3 * sag);
+  EXPECT_GT(lowest, kCubeSide + 0.05 - 4 * sag);  // the cube and its anchor give way, too
   EXPECT_LT(lowest, kCubeSide + 0.05 - 1.5 * sag);
 }
 

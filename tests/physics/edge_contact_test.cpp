@@ -152,6 +152,33 @@ TYPED_TEST(EdgeContact, ABlockLiesOnRailsAsOnAPlane) {
   EXPECT_LT(this->solver->maxSpeed(0), 1e-3);
 }
 
+// A lintel on a wall of one layer, as thick as it or nearly: the vertices of the wall are at the sides of the
+// lintel, and its edges at those of the wall. It lies on three faces of k_n; it sank to the cores, by 50 mm.
+TYPED_TEST(EdgeContact, WhatIsAsWideAsTheCellsLiesOnThem) {
+  constexpr double kLintelMass = 400;
+  const double sink = kLintelMass * 9.81 / (3 * kCubeStiffness);
+  for (const bool isHull : {false, true}) {
+    for (const double wider : {-0.01, -1e-4, 0.0, 1e-9, 1e-4, 0.005, 0.02}) {
+      for (const double aside : {0.0, 0.003}) {
+        this->solver = makeSolver<TypeParam>(false);
+        this->solver->addBody(dampedSlab({3, 1, 1}), kNoGravity);
+        const Eigen::Vector3d half(0.4, 0.1, kSlabCube / 2 + wider);
+        edem::RigidProxy lintel = solidBox(half, kLintelMass, {0.3, kSlabCube + 0.1, kSlabCube / 2 + aside});
+        if (isHull) lintel.parts = {triangulatedBox(half)};
+        std::vector<edem::RigidProxy> proxies = {lintel};
+        this->run(1.5, proxies);
+        const double measured = lintel.position.y() - proxies[0].position.y();
+        const char* kind = isHull ? "hull" : "box";
+        // Both edges and, where they are a little inside the lintel, the vertices.
+        EXPECT_GT(measured, 0.4 * sink) << kind << ", wider by " << wider << ", aside by " << aside;
+        EXPECT_LT(measured, 2 * sink) << kind << ", wider by " << wider << ", aside by " << aside;
+        EXPECT_LT(tiltOf(proxies[0]), 2e-3) << kind << ", wider by " << wider << ", aside by " << aside;
+        EXPECT_LT(proxies[0].velocity.norm(), 1e-3);  // it still sways
+      }
+    }
+  }
+}
+
 TYPED_TEST(EdgeContact, AHullThatIsABoxLiesAsTheBox) {
   edem::RigidProxy beam = beamAt(0.47);
   beam.orientation = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
