@@ -364,7 +364,9 @@ void Destruction::Impl::closeLedger(double dt) {
 
 void Destruction::Impl::judgeDamping() {
   const double made = -ledgerBook.lostByElements(), most = ledgerBook.ledger().energyScale;
-  if (bodies.empty() || !(made > kRunaway * most)) return;
+  // The ledger is of the instant of the last forces: in a first tick of one substep nothing had moved yet,
+  // and rounding is all the energy there is.
+  if (bodies.empty() || ticks == 0 || !(made > kRunaway * most)) return;
   const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
     return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
   };
