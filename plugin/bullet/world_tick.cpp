@@ -282,7 +282,10 @@ void Destruction::Impl::advance(double dt) {
   if (!solver->failure().empty()) failSolver();
   followElements();
   poseJoints(dt);
-  if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
+  frozen += solver->report().frozen;
+  const bool warns = def.log && !solver->report().warning.empty(),
+             isFirstFrozen = frozen > 0 && frozen == solver->report().frozen;
+  if (warns && (!std::exchange(warned, true) || isFirstFrozen))
     def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
