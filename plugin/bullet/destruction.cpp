@@ -82,6 +82,7 @@ DestructionCounts Destruction::counts() const {
   c.debrisAlive = m_impl->debrisSystem ? std::uint32_t(m_impl->debrisSystem->pieces().size()) : 0;
   c.debrisSpawned = m_impl->debrisSpawned;
   c.debrisRemoved = m_impl->debrisRemoved;
+  c.frozen = m_impl->frozen;
   return c;
 }
 

@@ -283,7 +283,10 @@ void Destruction::Impl::advance(double dt) {
   if (!solver->failure().empty()) failSolver();
   followElements();
   poseJoints(dt);
-  if (def.log && !solver->report().warning.empty() && !std::exchange(warned, true))
+  frozen += solver->report().frozen;
+  const bool warns = def.log && !solver->report().warning.empty(),
+             isFirstFrozen = frozen > 0 && frozen == solver->report().frozen;
+  if (warns && (!std::exchange(warned, true) || isFirstFrozen))
     def.log(LogLevel::Warning, solver->report().warning);
   substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
@@ -369,7 +372,9 @@ void Destruction::Impl::closeLedger(double dt) {
 
 void Destruction::Impl::judgeDamping() {
   const double made = -ledgerBook.lostByElements(), most = ledgerBook.ledger().energyScale;
-  if (bodies.empty() || !(made > kRunaway * most)) return;
+  // The ledger is of the instant of the last forces: in a first tick of one substep nothing had moved yet,
+  // and rounding is all the energy there is.
+  if (bodies.empty() || ticks == 0 || !(made > kRunaway * most)) return;
   const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
     return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
   };

@@ -92,7 +92,7 @@ struct Destruction::Impl {
   double seconds = 0;
   int wholes = 0;               ///< bodies that Bullet moves
   bool lookedForBlows = false;  ///< in this tick
-  std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0;
+  std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
 

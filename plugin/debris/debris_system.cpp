@@ -29,10 +29,10 @@ void requireUsable(const Eigen::Vector3d& value, const char* name) {
 
 void validate(const DebrisParcel& parcel) {
   constexpr double kLeast = std::numeric_limits<double>::min();
-  requireRange(parcel.mass, kLeast, kLargest, "mass of a piece");
+  requireRange(parcel.mass, kLeast, kLargestAmount, "mass of a piece");
   requireRange(parcel.radius, kLeast, kLargest, "radius of a piece");
   requireRange(parcel.density, kLeast, kLargest, "density of a piece");
-  requireRange(parcel.inertia, 0, kLargest, "inertia of a piece");
+  requireRange(parcel.inertia, 0, kLargestAmount, "inertia of a piece");
   requireRange(parcel.collisionRadius, 0, kLargest, "collision radius of a piece");
   requireRange(parcel.friction, 0, kLargest, "friction of a piece");
   requireRange(parcel.scale, 0, kLargest, "drawn scale of a piece");

@@ -10,6 +10,10 @@ namespace rubble::debris {
 /// Largest magnitude of any number of a state, in its SI unit. Products of a few such numbers are finite, so
 /// one check at the entrance keeps everything behind it finite.
 inline constexpr double kLargest = 1e12;
+/// Of a mass, inertia, volume or energy, which grow with the third to fifth power of a length: the largest
+/// solid that is loaded has 2e22 kg and 2e34 kg m^2 (a diagonal of 1e6 m at 1e5 kg/m^3). Products hold at
+/// most three of them beside six other numbers, 1e192 of a double's 1e308; and each is a float.
+inline constexpr double kLargestAmount = 1e38;
 
 /// True when no component is NaN, infinite or beyond kLargest.
 inline bool isUsable(const Eigen::Vector3d& v) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.h"
 #include "debris/swarm.h"
 #include "rubble/error.h"
 
@@ -18,15 +19,16 @@ constexpr double kPlace = 0.5;
 // inertia must stay well posed for cells whose places hold all of the inertia.
 constexpr double kLeastInertia = 1e-3;
 
-void requireAboveZero(double value, const char* name) {
-  if (!(value > 0) || value > kLargest)
-    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) +
-                ", must be above 0 and at most 1e12");
+void requireAboveZero(double value, double most, const char* name) {
+  if (value > 0 && value <= most) return;
+  throw Error(std::string("debris: ") + name + " is " + base::numberText(value) +
+              ", must be above 0 and at most " + base::numberText(most));
 }
 
-void requireAtLeastZero(double value, const char* name) {
-  if (!(value >= 0) || value > kLargest)
-    throw Error(std::string("debris: ") + name + " is " + std::to_string(value) + ", must be 0 to 1e12");
+void requireAtLeastZero(double value, double most, const char* name) {
+  if (value >= 0 && value <= most) return;
+  throw Error(std::string("debris: ") + name + " is " + base::numberText(value) + ", must be 0 to " +
+              base::numberText(most));
 }
 
 void requireUsable(const Eigen::Vector3d& value, const char* name) {
@@ -34,11 +36,11 @@ void requireUsable(const Eigen::Vector3d& value, const char* name) {
 }
 
 void validate(const base::CrushedElement& element, std::span<const CellFace> faces) {
-  requireAboveZero(element.mass, "mass of the element");
-  requireAtLeastZero(element.inertia, "inertia of the element");
-  requireAboveZero(element.volume, "volume of the cell");
-  requireAboveZero(element.radius, "radius of the element");
-  requireAtLeastZero(element.releasedEnergy, "energy released");
+  requireAboveZero(element.mass, kLargestAmount, "mass of the element");
+  requireAtLeastZero(element.inertia, kLargestAmount, "inertia of the element");
+  requireAboveZero(element.volume, kLargestAmount, "volume of the cell");
+  requireAboveZero(element.radius, kLargest, "radius of the element");
+  requireAtLeastZero(element.releasedEnergy, kLargestAmount, "energy released");
   requireUsable(element.restCentre, "rest place of the element");
   requireUsable(element.centre, "place of the element");
   requireUsable(element.velocity, "velocity of the element");
@@ -72,9 +74,9 @@ Eigen::Vector3d orbitRate(const PrincipalInertia& places, double inertia, const 
 
 Spawner::Spawner(const Material& material, const Model& model, std::uint64_t seed)
     : m_material(material), m_model(model), m_seed(seed) {
-  requireAboveZero(material.density, "density");
-  requireAtLeastZero(material.friction, "friction");
-  requireAtLeastZero(material.debrisSpeed, "debrisSpeed");
+  requireAboveZero(material.density, kLargest, "density");
+  requireAtLeastZero(material.friction, kLargest, "friction");
+  requireAtLeastZero(material.debrisSpeed, kLargest, "debrisSpeed");
   validate(SizeLaw{0, material.dustRadius, material.sizeModulus});
 }
 

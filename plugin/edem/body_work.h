@@ -41,6 +41,9 @@ struct BodyWork {
   std::uint32_t numberedBroken = 0, numberedCrushed = 0;  ///< counts when `motionOf` was written
   std::vector<std::uint32_t> motionOf;                    ///< each element's place in `motions`
 
+  // Of a tick.
+  std::vector<std::uint8_t> frozen;  ///< 1 for elements that stand still until it ends (frozen.h)
+
   // Of a substep.
   std::vector<Vec3<double>> position;                   ///< rest + u, relative to origin [m]
   std::vector<Vec3<Real>> force, torque;                ///< all [N], [N m]

@@ -57,7 +57,7 @@ struct Books {
   Work dissipated;        ///< negative work of dashpots and friction on the elements [J]
   double fracture = 0;    ///< elastic energy of what broke [J]
   double massDamped = 0;  ///< kinetic energy taken by mass damping [J]
-  double slept = 0;       ///< kinetic energy taken by sleep [J]
+  double slept = 0;       ///< kinetic energy taken by sleep, and from frozen elements [J]
   Eigen::Vector3d sleptLinear = Eigen::Vector3d::Zero(), sleptAngular = Eigen::Vector3d::Zero();
   // What crushed and removed elements took with them.
   double leftMass = 0, leftKinetic = 0, leftElastic = 0;

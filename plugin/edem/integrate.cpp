@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edem/frozen.h"
 #include "edem/stages.h"
 
 namespace rubble::edem {
@@ -52,6 +53,7 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
         oldVelocity, (kickTime * body.constants->inverseMass[i]) * body.work.force[i] + fall,
         body.state.velocityCarry[i]);
     body.state.spin[i] = oldSpin + (kickTime * body.constants->inverseInertia[i]) * body.work.torque[i];
+    if (body.work.frozen[i]) stop(body, i, oldVelocity, oldSpin, books);
     body.state.displacement[i] += stepTime * body.state.velocity[i];
     body.state.rotation[i] = rotated(body.state.rotation[i], body.state.spin[i], stepTime);
     const Vec3<double> moved =

@@ -285,6 +285,7 @@ void makeWork(BodyWork<Real>& work, std::size_t n, std::size_t springs) {
   for (auto* v : {&work.rest, &work.position}) v->assign(n, Vec3<double>::Zero());
   work.load.assign(n, Real(0));
   work.touchesBegun.assign(n, 0);
+  work.frozen.assign(n, 0);
   work.overloaded.reserve(springs);
   work.overloadMode.reserve(springs);
   work.crushing.reserve(n);

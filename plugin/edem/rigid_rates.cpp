@@ -11,7 +11,7 @@ namespace rubble::edem {
 namespace {
 
 // A light rigid body at many elements is faster than they are: up to this multiple of their frequency^2 the
-// substep follows it, beyond it its contacts are made softer.
+// substep follows it, beyond it its contacts are made softer; so are those where all contacts are.
 constexpr double kLightBodyRate = 4;
 
 // Bound from above of the largest eigenvalue of a matrix that has none below 0: the Frobenius norm of its
@@ -119,7 +119,7 @@ void addEdges(const RigidProxy& proxy, RigidState& state) {
 
 void setLaws(std::span<const ContactSide> sides, const RigidProxy& proxy, double frequency2, double share,
              RigidState& state) {
-  const double allowed = kLightBodyRate * frequency2;
+  const double allowed = kLightBodyRate * share * frequency2;
   if (share * state.rate > allowed) share = allowed / state.rate;
   state.laws.clear();
   state.rates = {share * state.rate, 0};

@@ -26,10 +26,11 @@ struct BrokenSpring {
 /// What one tick did, besides moving things.
 struct TickReport {
   int substeps = 0;
-  double substep = 0;   ///< h [s]
-  double kicked = 0;    ///< time for which forces acted: that of the velocities, between half steps [s]
-  double listing = 0;   ///< wall time spent on candidate lists [ms]
-  std::string warning;  ///< what the tick could not do as it should; empty: nothing
+  double substep = 0;        ///< h [s]
+  double kicked = 0;         ///< time for which forces acted: that of the velocities, between half steps [s]
+  double listing = 0;        ///< wall time spent on candidate lists [ms]
+  std::string warning;       ///< what the tick could not do as it should; empty: nothing
+  std::uint32_t frozen = 0;  ///< elements that stood still until the tick ended (frozen.h)
   std::vector<BrokenSpring> broken;
   /// Without maxRadius, which is the law of another layer.
   std::vector<base::CrushedElement> crushed;

@@ -123,7 +123,10 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
   });
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     bodies[b]->work.touchesBegun.assign(bodies[b]->elementCount(), 0);
-    for (std::size_t i = 0; i < m_rates[b].size(); ++i) m_rates[b][i] += m_next[b][i];
+    for (std::size_t i = 0; i < m_rates[b].size(); ++i) {
+      m_rates[b][i] += m_next[b][i];
+      if (bodies[b]->work.frozen[i]) m_rates[b][i] = {};  // nothing moves it
+    }
   }
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     const Body<Real>& body = *bodies[b];
@@ -153,6 +156,23 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
         add(place, m_rates[place][i], all);
       });
   addRides(bodies, rigid);
+}
+
+template <class Real>
+typename StepLength<Real>::Place StepLength<Real>::stiffestElement(
+    std::span<const std::unique_ptr<Body<Real>>> bodies) const {
+  Place found{0, kNoElement, std::numeric_limits<double>::infinity()};
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b]->state.asleep) continue;
+    for (const std::uint32_t i : bodies[b]->work.awake) {
+      if (!bodies[b]->state.alive[i]) continue;
+      RateBound bound;
+      bound.add(m_rates[b][i], {});
+      const double step = bound.stableStep();
+      if (step < found.step) found = {b, i, step};
+    }
+  }
+  return found;
 }
 
 template <class Real>

@@ -11,6 +11,7 @@
 #include "edem/damping.h"
 #include "edem/fragment_motion.h"
 #include "edem/frames.h"
+#include "edem/frozen.h"
 #include "edem/host_moves.h"
 #include "edem/sleep.h"
 #include "edem/tick_step.h"
@@ -201,6 +202,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.report.crushed.clear();
   w.report.substeps = 0;
   w.report.listing = w.report.kicked = 0;
+  thawElements(w);
   w.report.warning.clear();
   if (!std::isfinite(dt)) w.failure = "the time step is not finite";
   if (!w.failure.empty() || !(dt > 0)) return;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "edem/body_queries.h"
+#include "edem/frozen.h"
 
 namespace rubble::edem {
 namespace {
@@ -34,23 +35,18 @@ void setShare(World<Real>& w, double share) {
 }
 
 // Makes contacts softer until a substep of `shortest` is stable, as penalty contacts of explicit codes are
-// whose stiffness follows the step. What their springs held more is lost. Returns the stable step then; that
-// before and nothing done where it would take softer ones than are allowed [s].
+// whose stiffness follows the step, or as soft as is allowed. What their springs held more is lost. Returns
+// the stable step then [s].
 template <class Real>
 double softenContacts(World<Real>& w, double stable, double shortest) {
   const double before = w.contactShare, energy = w.lists.elasticAwake() + w.rigid.elasticAwake();
   double soft = stable;
-  while (soft < shortest) {
+  while (soft < shortest && w.contactShare > kSoftest) {
     // All their rates go with it, frequencies with its root.
-    const double share = w.contactShare * kSoftEnough * soft * soft / (shortest * shortest);
-    if (!(share >= kSoftest)) {
-      setShare(w, before);
-      stableStep(w);
-      return stable;
-    }
-    setShare(w, share);
+    setShare(w, std::max(kSoftest, w.contactShare * kSoftEnough * soft * soft / (shortest * shortest)));
     soft = stableStep(w);
   }
+  if (w.contactShare == before) return soft;
   w.books.dissipated.add(-(1 - w.contactShare / before) * energy, 0);
   char text[200];
   std::snprintf(text, sizeof text,
@@ -79,6 +75,7 @@ double longestStep(World<Real>& w, double dt) {
   double stable = stableStep(w);
   const double asked = stable;
   if (stable < shortest) stable = softenContacts(w, stable, shortest);
+  if (stable < shortest && freezeElements(w, shortest)) stable = shortest;
   double speed = 0, radius = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     const Body<Real>& body = *w.bodies[b];

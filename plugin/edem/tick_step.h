@@ -6,7 +6,8 @@
 namespace rubble::edem {
 
 /// Longest safe step of a tick of `dt` as things are now [s]. Contacts that need a shorter one than
-/// maxSubstepsPerFrame allows are made softer, and told of; a tick that needs too many all the same fails.
+/// maxSubstepsPerFrame allows are made softer, then elements that still need one are frozen, and both are
+/// told of; a tick that needs too many all the same fails.
 template <class Real>
 double longestStep(World<Real>& w, double dt);
 

@@ -29,8 +29,9 @@ class DestructibleBody;
 struct DestructionDef {
   Precision precision = Precision::Float;  ///< of the elements' state
   /// Upper limit on substeps in 1/60 s. A body that needs more is refused when it is added. Contacts that
-  /// need more are made softer, down to a hundredth, until they part, with a warning; the simulation stops
-  /// where that is not enough.
+  /// need more are made softer, down to a hundredth, until they part, with a warning; elements that need more
+  /// all the same stand still until the tick ends, counted in DestructionCounts::frozen; the simulation stops
+  /// where those would be more than a quarter of what is awake.
   int maxSubstepsPerFrame = 20000;
   /// Share of the stable substep that is used, 0 to 1.
   double substepSafety = 0.9;
@@ -83,6 +84,9 @@ struct DestructionCounts {
   std::uint32_t fragments = 0;      ///< sets of intact elements joined by intact springs, single ones too
   std::uint32_t debrisAlive = 0;    ///< pieces in the world
   std::uint32_t debrisSpawned = 0, debrisRemoved = 0;  ///< since the Destruction was made
+  /// Elements that stood still until the tick ended, each tick's added, since the Destruction was made: no
+  /// substep that maxSubstepsPerFrame allows would have been stable for them.
+  std::uint32_t frozen = 0;
 
   std::uint32_t intact() const { return elements - crushed; }
   std::uint32_t springsIntact() const { return springs - springsBroken; }

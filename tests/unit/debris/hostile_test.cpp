@@ -86,6 +86,40 @@ TEST(HostileSpawn, DegenerateCellsStayFiniteAndKeepTheirMomenta) {
   }
 }
 
+// The largest and the densest solid that is loaded, of one element: 1.9e22 kg, m h^2 / 6 is 1.1e33 kg m^2.
+TEST(HostileSpawn, TheLargestElementBecomesDebrisAndKeepsItsMotion) {
+  Spawner spawner(Material{}, Model{}, 1);
+  DebrisBatch batch;
+  const double edge = 1e6 / std::sqrt(3.0);
+  test::TestCell cell = test::cubeCell(edge, 1e5);
+  base::CrushedElement& e = cell.element;
+  e.velocity = {1e4, -2, 3};
+  e.spin = {1e4, 5, -6};
+  e.releasedEnergy = 1e30;
+  spawner.spawn(e, cell.faces, batch);
+  const Motion whole = motionOf(e.mass, e.inertia, e.centre, e.velocity, e.spin);
+  Motion all = batch.piecesMotion;
+  all += batch.dustMotion;
+  EXPECT_NEAR(all.mass, e.mass, 1e-12 * e.mass);
+  EXPECT_LT((all.linear - whole.linear).norm(), 1e-9 * whole.linear.norm());
+  EXPECT_LT((all.angular - whole.angular).norm(), 1e-9 * whole.angular.norm());
+  EXPECT_LE(all.kinetic, (whole.kinetic + e.releasedEnergy) * (1 + 1e-9));
+
+  DebrisSystem system({.maxDebris = 64, .reach = 1e12});
+  system.add(batch.pieces);
+  const Motion begun = system.motion();
+  system.takeExchange();
+  Surroundings ground({test::TestPlane{}});
+  for (int i = 0; i < 50; ++i) system.step(1.0 / 60, kDown, ground);
+  const Motion now = system.motion();
+  const Exchange x = system.takeExchange();
+  ASSERT_TRUE(isFinite(now));
+  const Vector3d linear = begun.linear + x.gravity.linear + x.air.linear + x.contact.linear;
+  EXPECT_LT((now.linear - linear).norm(), 1e-9 * begun.linear.norm());
+  EXPECT_NEAR(now.kinetic, begun.kinetic + x.gravity.energy + x.air.energy + x.contact.energy,
+              1e-9 * begun.kinetic);
+}
+
 TEST(HostileSpawn, RefusesMaterialsOutOfRange) {
   const auto make = [](const std::function<void(Material&)>& change) {
     Material material;
