@@ -27,14 +27,18 @@ bool freezeElements(World<Real>& w, double shortest) {
   };
   bool isStable = isLong();
   const double needed = w.def.substepSafety * w.stepLength.stable();
-  for (; !isStable; isStable = isLong()) {
-    const auto next = w.stepLength.stiffestElement(w.bodies);
-    if (next.element == kNoElement || w.report.frozen + frozen.size() >= awake / kFrozenOf) {
+  // Twice as many each time: looking at all elements for each would take minutes of a large world.
+  for (std::size_t count = 1; !isStable; isStable = isLong(), count *= 2) {
+    const auto next = w.stepLength.stiffestElements(w.bodies, count);
+    const std::size_t most = awake / kFrozenOf, held = w.report.frozen + frozen.size();
+    if (next.empty() || held >= most) {
       for (const auto& place : frozen) w.bodies[place.body]->work.frozen[place.element] = 0;
       return false;
     }
-    w.bodies[next.body]->work.frozen[next.element] = 1;
-    frozen.push_back(next);
+    for (const auto& place : std::span(next).first(std::min(most - held, next.size()))) {
+      w.bodies[place.body]->work.frozen[place.element] = 1;
+      frozen.push_back(place);
+    }
   }
   if (frozen.empty()) return true;
   w.report.frozen += std::uint32_t(frozen.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <tuple>
 
 #include "edem/anchor_ride.h"
 #include "rubble/error.h"
@@ -159,9 +160,9 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
 }
 
 template <class Real>
-typename StepLength<Real>::Place StepLength<Real>::stiffestElement(
-    std::span<const std::unique_ptr<Body<Real>>> bodies) const {
-  Place found{0, kNoElement, std::numeric_limits<double>::infinity()};
+std::vector<typename StepLength<Real>::Place> StepLength<Real>::stiffestElements(
+    std::span<const std::unique_ptr<Body<Real>>> bodies, std::size_t count) const {
+  std::vector<Place> found;
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b]->state.asleep) continue;
     for (const std::uint32_t i : bodies[b]->work.awake) {
@@ -169,9 +170,15 @@ typename StepLength<Real>::Place StepLength<Real>::stiffestElement(
       RateBound bound;
       bound.add(m_rates[b][i], {});
       const double step = bound.stableStep();
-      if (step < found.step) found = {b, i, step};
+      if (std::isfinite(step)) found.push_back({b, i, step});
     }
   }
+  count = std::min(count, found.size());
+  std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(count), found.end(),
+                    [](const Place& a, const Place& b) {
+                      return std::tie(a.step, a.body, a.element) < std::tie(b.step, b.body, b.element);
+                    });
+  found.resize(count);
   return found;
 }
 

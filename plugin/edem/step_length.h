@@ -36,13 +36,13 @@ class StepLength {
   /// Largest step that follows a single contact through its blow well enough for its energy [s].
   double resolving() const;
   std::uint32_t stiffest() const { return m_stiffest; }
-  /// The element that is awake and needs the shortest step by itself, with all that acts on it, beside those
-  /// that are frozen; kNoElement where nothing acts on any.
   struct Place {
     std::uint32_t body = 0, element = kNoElement;
-    double step = 0;  ///< [s]
+    double step = 0;  ///< stable for it by itself, with all that acts on it [s]
   };
-  Place stiffestElement(std::span<const std::unique_ptr<Body<Real>>> bodies) const;
+  /// So many awake elements, or all on which anything acts, that need the shortest steps; shortest first.
+  std::vector<Place> stiffestElements(std::span<const std::unique_ptr<Body<Real>>> bodies,
+                                      std::size_t count) const;
 
  private:
   void weighRides(std::span<const std::unique_ptr<Body<Real>>> bodies, const RigidContacts<Real>& rigid);
