@@ -7,6 +7,7 @@
 #include "cook/cell_meshes.h"
 #include "cook/cell_reach.h"
 #include "cook/checked_mesh.h"
+#include "cook/contradiction.h"
 #include "cook/elements.h"
 #include "cook/frame.h"
 #include "cook/message.h"
@@ -16,6 +17,7 @@
 #include "cook/restricted_voronoi.h"
 #include "cook/site_pieces.h"
 #include "cook/springs.h"
+#include "cook/surface_check.h"
 #include "cook/surface_look.h"
 #include "rubble/limits.h"
 
@@ -187,10 +189,19 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   report(0, "checking the mesh");
   CheckedMesh solid = checkMesh(mesh);
   checkLook(mesh);
+  checkSurface(solid);
   const Eigen::Vector3d origin = frameOrigin(solid, options);
   if (!origin.isZero(0)) solid = checkMesh(moved(mesh, origin));
 
-  auto [elements, diagram] = packAndCut(solid, options, report, log);
+  auto [elements, diagram] = [&] {
+    try {
+      return packAndCut(solid, options, report, log);
+    } catch (const NotCut&) {
+      const std::string why = whyNotCut(solid, origin);
+      if (why.empty()) throw;
+      throw Error("mesh: cannot be cut into cells: " + why);
+    }
+  }();
   for (const auto& [level, text] : elements.notes)
     if (log) log(level, text);
   const SitePieces pieces = findSitePieces(diagram);
