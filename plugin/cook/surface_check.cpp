@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/groups.h"
+#include "cook/nesting.h"
 #include "cook/surface_clash.h"
 
 namespace rubble::cooking {
@@ -64,11 +65,27 @@ std::string describe(const CheckedMesh& mesh, const Clash& clash, const Eigen::V
                   ", with nothing between them", what);
 }
 
+std::string describe(const WrongShell& wrong) {
+  const std::string where = at(wrong.place);
+  if (wrong.around == kNoElement)
+    return sentence("part ", wrong.shell, ", with a corner ", where,
+                    ", faces inwards, but lies inside no other; turn it outwards, as a repair does");
+  if (wrong.isInward)
+    return sentence("part ", wrong.shell, " inside part ", wrong.around, ", with a corner ", where,
+                    ", faces inwards, but that is a cavity already; turn it outwards, as a repair does");
+  return sentence("part ", wrong.shell, " inside part ", wrong.around, ", with a corner ", where,
+                  ", faces the same way: outwards within the solid; turn it inwards, as a repair does, if it "
+                  "is a cavity, else remove it");
+}
+
 }  // namespace
 
 void checkSurface(const CheckedMesh& mesh) {
   if (const auto clash = findClash(mesh, kDepth * mesh.diagonal()))
     throw Error("mesh: " + describe(mesh, *clash, Eigen::Vector3d::Zero()));
+  if (const auto wrong =
+          findWrongShell({mesh.vertices, mesh.triangles, std::vector<Source>(mesh.triangles.size())}))
+    throw Error("mesh: " + describe(*wrong));
 }
 
 std::string whyNotCut(const CheckedMesh& mesh, const Eigen::Vector3d& origin) {

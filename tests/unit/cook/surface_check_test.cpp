@@ -60,6 +60,16 @@ TEST(SurfaceCheck, NamesWherePartsShareAFace) {
                 {"cannot be cut into cells: two sheets", "touch at (0.5, ", "a repair unites"});
 }
 
+TEST(SurfaceCheck, NamesPartsThatFaceTheWrongWay) {
+  expectRefused(joined(boxMesh(kCube), boxMesh(kCube / 2)),
+                {"part 1 inside part 0, with a corner at (-0.25, -0.25, -0.25), faces the same way"});
+  expectRefused(joined(boxMesh(kCube), reversed(boxMesh(kCube / 2, {2, 0, 0}))),
+                {"part 1, with a corner at (1.75, ", "faces inwards, but lies inside no other"});
+  expectRefused(joined(hollowCube(), reversed(boxMesh(kCube / 4))),
+                {"part 2 inside part 1", "a cavity already"});
+  EXPECT_EQ(refusalOf(joined(hollowCube(), boxMesh(kCube / 4))), "");
+}
+
 // By comparing each with each.
 TEST(BoxPairs, AreAllFoundOnce) {
   std::vector<Eigen::AlignedBox3d> boxes;
