@@ -131,6 +131,11 @@ void checkTies(const CheckedMesh& solid, const Asset& asset, const LogFunction& 
   if (tied < parts && asset.elementCount() < parts) {
     log(LogLevel::Warning, line("the mesh has ", parts, " parts that do not touch and only ",
                                 asset.elementCount(), " elements; ", parts, " and more would do"));
+  } else if (tied < parts) {
+    log(LogLevel::Warning, line("the mesh has ", parts,
+                                " parts that do not touch, but springs tie some of "
+                                "them together, to ",
+                                tied, "; a wider gap between them would do"));
   } else {
     log(LogLevel::Warning,
         line("the mesh has ", parts, " parts that do not touch, but the springs tie the elements to ", tied,

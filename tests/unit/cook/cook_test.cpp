@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cook/elements.h"
+#include "rubble/repair.h"
 #include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
@@ -143,6 +144,19 @@ TEST(Cook, RefusesAnEdgeWithFourTriangles) {
       if (v == 12) v = 7;  // and the same above
     }
   expectError(mesh, optionsFor(8), "not manifold");
+}
+
+// Two cubes that share one vertex: repair parts it, and they are two parts tied to none.
+TEST(Cook, RefusesAVertexOfTwoFans) {
+  SurfaceMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1, 1, 1}));
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& v : triangle)
+      if (v == 8) v = 7;  // (-, -, -) of the second is (+, +, +) of the first
+  expectError(mesh, optionsFor(60), "touch in one corner alone, at (0.5, 0.5, 0.5), triangles ");
+  const RepairedMesh repaired = repair(mesh);
+  EXPECT_EQ(repaired.done, std::vector<std::string>{"parted 1 corner in which alone surfaces touched"});
+  const Asset asset = cookStrictly(repaired.mesh, optionsFor(60));  // a tie between them would be warned of
+  EXPECT_NEAR(asset.volume(), 2, 1e-9);
 }
 
 TEST(Cook, RefusesATriangleTurnedRound) {
