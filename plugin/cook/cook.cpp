@@ -113,14 +113,14 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
   if (reach <= allowed) return fillEmptyParts(std::move(cells));
 
   CutElements others = fill(!isEvenFirst);
-  const double otherReach = farthestCorner(others.diagram);
-  if (otherReach < reach) cells = std::move(others);
-  if (std::min(reach, otherReach) > allowed)
+  if (farthestCorner(others.diagram) < reach) cells = std::move(others);
+  cells = fillEmptyParts(std::move(cells));
+  const double farthest = farthestCorner(cells.diagram);  // an element for each part may have mended it
+  if (farthest > allowed)
     cells.elements.notes.emplace_back(
-        LogLevel::Warning,
-        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, otherReach),
-             " m from its element, more than ", allowed, " m"));
-  return fillEmptyParts(std::move(cells));
+        LogLevel::Warning, line("too few elements for the thin parts of the mesh: a cell reaches ", farthest,
+                                " m from its element, more than ", allowed, " m"));
+  return cells;
 }
 
 // That the springs tie together what is one part of the solid, and nothing else.

@@ -219,6 +219,7 @@ TEST(Cook, SaysWhatFitsWhenTheElementsDoNot) {
   expectError(boxMesh({1, 1, 1}), options, "times the mesh's volume");
   options.elements = 1;
   expectError(boxMesh({1, 1, 1}), options, "no sphere of radius 0.6 m fits");
+  expectError(boxMesh({1, 1, 1}), options, "none of this radius fits, or a radius of about ");
   options.elements = 200;  // fills 0.84: less than the volume, more than any packing
   options.radius = 0.1;
   expectError(boxMesh({1, 1, 1}), options, "do not fit: they overlap by up to");
