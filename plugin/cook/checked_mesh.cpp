@@ -119,6 +119,30 @@ void matchEdges(CheckedMesh& mesh) {
   }
 }
 
+// The corners of a vertex, one after the other across sides, are all that it has: where surfaces touch in one
+// corner there are more.
+void checkFans(const CheckedMesh& mesh) {
+  std::vector<std::uint32_t> fanOf(mesh.vertices.size(), kNoElement);  // a triangle of it
+  std::vector<std::array<bool, 3>> isMet(mesh.triangles.size(), {false, false, false});
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (isMet[t][k]) continue;
+      const std::uint32_t v = mesh.triangles[t][k];
+      if (fanOf[v] != kNoElement)
+        fail("not manifold: surfaces touch in one corner alone, at ", place(mesh.vertices[v]), ", triangles ",
+             fanOf[v], " and ", t, "; let each have a vertex of its own there, as a repair does");
+      fanOf[v] = t;
+      std::uint32_t triangle = t;
+      for (std::size_t corner = k; !isMet[triangle][corner];) {
+        isMet[triangle][corner] = true;
+        const std::uint32_t edge = mesh.triangleEdges[triangle][corner];
+        triangle = mesh.neighbours[triangle][corner];
+        const auto& edges = mesh.triangleEdges[triangle];
+        corner = (std::size_t(std::find(edges.begin(), edges.end(), edge) - edges.begin()) + 1) % 3;
+      }
+    }
+}
+
 void measureVolume(CheckedMesh& mesh) {
   const Eigen::Vector3d origin = mesh.bounds.center();
   double sum = 0;
@@ -182,6 +206,7 @@ CheckedMesh checkMesh(const SurfaceMesh& mesh) {
   CheckedMesh checked;
   copyUsed(mesh, checked);
   matchEdges(checked);
+  checkFans(checked);
   measureVolume(checked);
   computeNormals(checked);
   return checked;

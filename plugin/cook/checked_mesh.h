@@ -27,8 +27,8 @@ struct CheckedMesh {
 /// Throws rubble::Error: empty, too large, not finite, too far from the origin, index out of range.
 void checkNumbers(const SurfaceMesh& mesh);
 
-/// Throws rubble::Error: what checkNumbers throws, a corner twice in a triangle, not closed, not manifold,
-/// not consistently oriented, oriented inwards, without volume.
+/// Throws rubble::Error: what checkNumbers throws, a corner twice in a triangle, not closed, not manifold
+/// (edges and vertices), not consistently oriented, oriented inwards, without volume.
 CheckedMesh checkMesh(const SurfaceMesh& mesh);
 
 }  // namespace rubble::cooking

@@ -1,7 +1,9 @@
-// The one exception that stays inside the cook.
+// The exceptions that stay inside the cook.
 #pragma once
 
 #include <stdexcept>
+
+#include "rubble/error.h"
 
 namespace rubble::cooking {
 
@@ -10,6 +12,12 @@ namespace rubble::cooking {
 class Contradiction : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// No jitter cured the contradictions.
+class NotCut : public Error {
+ public:
+  using Error::Error;
 };
 
 }  // namespace rubble::cooking

@@ -7,6 +7,7 @@
 #include "cook/cell_meshes.h"
 #include "cook/cell_reach.h"
 #include "cook/checked_mesh.h"
+#include "cook/contradiction.h"
 #include "cook/elements.h"
 #include "cook/frame.h"
 #include "cook/message.h"
@@ -16,6 +17,7 @@
 #include "cook/restricted_voronoi.h"
 #include "cook/site_pieces.h"
 #include "cook/springs.h"
+#include "cook/surface_check.h"
 #include "cook/surface_look.h"
 #include "rubble/limits.h"
 
@@ -111,14 +113,14 @@ CutElements packAndCut(const CheckedMesh& solid, const CookOptions& options, con
   if (reach <= allowed) return fillEmptyParts(std::move(cells));
 
   CutElements others = fill(!isEvenFirst);
-  const double otherReach = farthestCorner(others.diagram);
-  if (otherReach < reach) cells = std::move(others);
-  if (std::min(reach, otherReach) > allowed)
+  if (farthestCorner(others.diagram) < reach) cells = std::move(others);
+  cells = fillEmptyParts(std::move(cells));
+  const double farthest = farthestCorner(cells.diagram);  // an element for each part may have mended it
+  if (farthest > allowed)
     cells.elements.notes.emplace_back(
-        LogLevel::Warning,
-        line("too few elements for the thin parts of the mesh: a cell reaches ", std::min(reach, otherReach),
-             " m from its element, more than ", allowed, " m"));
-  return fillEmptyParts(std::move(cells));
+        LogLevel::Warning, line("too few elements for the thin parts of the mesh: a cell reaches ", farthest,
+                                " m from its element, more than ", allowed, " m"));
+  return cells;
 }
 
 // That the springs tie together what is one part of the solid, and nothing else.
@@ -129,6 +131,11 @@ void checkTies(const CheckedMesh& solid, const Asset& asset, const LogFunction& 
   if (tied < parts && asset.elementCount() < parts) {
     log(LogLevel::Warning, line("the mesh has ", parts, " parts that do not touch and only ",
                                 asset.elementCount(), " elements; ", parts, " and more would do"));
+  } else if (tied < parts) {
+    log(LogLevel::Warning, line("the mesh has ", parts,
+                                " parts that do not touch, but springs tie some of "
+                                "them together, to ",
+                                tied, "; a wider gap between them would do"));
   } else {
     log(LogLevel::Warning,
         line("the mesh has ", parts, " parts that do not touch, but the springs tie the elements to ", tied,
@@ -187,10 +194,19 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   report(0, "checking the mesh");
   CheckedMesh solid = checkMesh(mesh);
   checkLook(mesh);
+  checkSurface(solid);
   const Eigen::Vector3d origin = frameOrigin(solid, options);
   if (!origin.isZero(0)) solid = checkMesh(moved(mesh, origin));
 
-  auto [elements, diagram] = packAndCut(solid, options, report, log);
+  auto [elements, diagram] = [&] {
+    try {
+      return packAndCut(solid, options, report, log);
+    } catch (const NotCut&) {
+      const std::string why = whyNotCut(solid, origin);
+      if (why.empty()) throw;
+      throw Error("mesh: cannot be cut into cells: " + why);
+    }
+  }();
   for (const auto& [level, text] : elements.notes)
     if (log) log(level, text);
   const SitePieces pieces = findSitePieces(diagram);

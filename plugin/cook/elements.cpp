@@ -158,7 +158,7 @@ bool Packer::fits(const Packing& packing) const {
 void Packer::requireFit(const Packing& packing, double radius) const {
   if (packing.centres.size() < m_options.elements)
     throw Error(line("no sphere of radius ", radius, " m fits into the mesh: the deepest place found is ",
-                     packing.deepestPlace, " m from its surface"));
+                     packing.deepestPlace, " m from its surface; ", whatFits(radius)));
   if (!fits(packing))
     throw Error(line(m_options.elements, " elements of radius ", radius,
                      " m do not fit: they overlap by up to ", 100 * packing.deepestOverlap,
@@ -213,7 +213,8 @@ Elements Packer::finish(Packing packing, double radius) const {
   constexpr double kNoticed = 0.01;  // [r]
   if (packing.deepestProtrusion > kNoticed * radius)
     elements.notes.emplace_back(
-        LogLevel::Warning, line("an element protrudes by ", packing.deepestProtrusion, " m from the mesh"));
+        LogLevel::Warning, line("an element protrudes by ", packing.deepestProtrusion, " m from the mesh; ",
+                                whatHolds(radius - packing.deepestProtrusion)));
   for (const std::uint32_t i : hilbertOrder(packing.centres)) elements.centres.push_back(packing.centres[i]);
   return elements;
 }
@@ -223,6 +224,14 @@ std::string Packer::whatFills(double radius) const {
   if (!limits::kElements.hold(count)) return "more elements than are allowed";
   std::ostringstream text;
   text << "about " << count << " elements";
+  return text.str();
+}
+
+std::string Packer::whatHolds(double room) const {
+  constexpr double kEdge = 0.05;  // [radius] less room is that of a sharp edge, which no sphere fills
+  if (!(room > kEdge * wantedRadius())) return "in a sharp edge or a tip no radius would do";
+  std::ostringstream text;
+  text << room << " m as radius would do, or " << whatFills(room);
   return text.str();
 }
 

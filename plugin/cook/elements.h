@@ -58,6 +58,7 @@ class Packer {
   void requireFit(const Packing& packing, double radius) const;
   std::string whatFits(double radius) const;
   std::string whatFills(double radius) const;
+  std::string whatHolds(double room) const;
   Eigen::Vector3d justBelow(const SurfacePlace& surface) const;
   Room farthestRoom(const std::vector<SurfacePlace>& places, const Elements& elements,
                     std::uint32_t element) const;

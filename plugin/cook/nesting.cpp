@@ -1,5 +1,6 @@
 #include "cook/nesting.h"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -34,7 +35,48 @@ std::vector<Nest> findNests(const Shells& shells, const std::vector<std::uint32_
   return nests;
 }
 
+// By most of some of its corners: where shells touch, one may be beyond the other by a rounding.
+bool liesMostlyWithin(const Soup& soup, const Shell& inner, const ShellTree& outer) {
+  constexpr std::size_t kMostCorners = 64;
+  const std::size_t step = 1 + (inner.triangles.size() - 1) / kMostCorners;
+  int within = 0;
+  for (std::size_t k = 0; k < inner.triangles.size(); k += step) {
+    const ShellSide side = outer.sideOf(soup.vertices[soup.triangles[inner.triangles[k]][0]]);
+    within += side == ShellSide::Within ? 1 : side == ShellSide::Outside ? -1 : 0;
+  }
+  return within > 0;
+}
+
+// Without volume it has no sides.
+bool isFlat(const Shell& shell) {
+  constexpr double kFlat = 1e-12;
+  return !(std::abs(shell.volume) > kFlat * std::pow(shell.bounds.diagonal().norm(), 3));
+}
+
 }  // namespace
+
+std::optional<WrongShell> findWrongShell(const Soup& soup) {
+  const Shells shells = findShells(soup);
+  if (shells.list.size() < 2) return std::nullopt;
+  ShellTrees trees(soup, shells);
+  for (std::uint32_t s = 0; s < shells.list.size(); ++s) {
+    const Shell& own = shells.list[s];
+    if (isFlat(own)) continue;
+    int winding = 0;
+    std::uint32_t around = kNoElement;
+    for (std::uint32_t o = 0; o < shells.list.size(); ++o) {
+      const Shell& other = shells.list[o];
+      if (o == s || isFlat(other) || !other.bounds.contains(own.bounds)) continue;
+      if (!liesMostlyWithin(soup, own, trees.of(o))) continue;
+      winding += other.volume > 0 ? 1 : -1;
+      if (around == kNoElement || shells.list[around].bounds.contains(other.bounds)) around = o;
+    }
+    const bool isInward = own.volume < 0;
+    if (winding != (isInward ? 1 : 0))
+      return WrongShell{s, around, isInward, soup.vertices[soup.triangles[own.triangles[0]][0]]};
+  }
+  return std::nullopt;
+}
 
 void turnOutwards(Soup& soup, const std::vector<std::uint32_t>& heaps) {
   const Shells shells = findShells(soup);

@@ -212,9 +212,12 @@ RepairedMesh repair(const SurfaceMesh& mesh, const RepairOptions& options) {
     done.push_back(words("cut ", counted(split, "triangle"), " at corners that lie on their edges"));
 
   const bool hasLook = !mesh.normals.empty() || !mesh.uvs.empty();
+  const std::size_t corners = soup.vertices.size();
   if (const auto sided = makeSided(soup)) {
     if (sided->parted > 0)
       done.push_back(words("parted ", counted(sided->parted, "edge"), " of more than two triangles"));
+    else if (const std::size_t touching = soup.vertices.size() - corners)
+      done.push_back(words("parted ", counted(touching, "corner"), " in which alone surfaces touched"));
     const Mended mended = mendSurface(soup, options);
     tellHoles(mended, hasLook, repaired);
     if (mended.united > 0)

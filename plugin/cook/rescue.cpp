@@ -96,8 +96,8 @@ bool Packer::fillEmptyParts(const RestrictedVoronoi& diagram, Elements& elements
   constexpr double kNoticed = 0.02;  // [radii]
   elements.notes.emplace_back(
       deepest > kNoticed * elements.radius ? LogLevel::Warning : LogLevel::Info,
-      line(filled, " parts of the mesh had no element and get one each, which protrudes by up to ", deepest,
-           " m"));
+      line(filled, filled == 1 ? " part" : " parts", " of the mesh had no element and ",
+           filled == 1 ? "gets one" : "get one each", ", which protrudes by up to ", deepest, " m"));
   makeApart(nearest, elements);
   std::vector<Eigen::Vector3d> ordered;
   for (const std::uint32_t i : hilbertOrder(elements.centres)) ordered.push_back(elements.centres[i]);

@@ -127,8 +127,8 @@ RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eig
       if (log) log(LogLevel::Info, "cook: cutting the cells again, with another jitter: " + reason);
     }
   }
-  throw Error("mesh: cannot be cut into cells (" + reason + "): it probably passes through itself; " +
-              "allowed are closed surfaces that do not");
+  throw NotCut("mesh: cannot be cut into cells (" + reason + "): it probably passes through itself; " +
+               "allowed are closed surfaces that do not");
 }
 
 }  // namespace rubble::cooking

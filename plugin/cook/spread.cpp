@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "cook/random.h"
 #include "cook/surface_samples.h"
@@ -16,9 +17,10 @@ constexpr std::size_t kInVolume = 3;      // candidates for each element
 constexpr std::size_t kVolumeTries = 64;  // random places for each element, in search of those
 constexpr std::size_t kLeastOnSurface = 4;
 constexpr std::size_t kMostOnSurface = 16;
-constexpr double kOnSpacing = 6;  // candidates on each squared spacing of the surface
-constexpr int kBisections = 16;   // of the distance, in powers
-constexpr double kCloser = 0.9;   // by which the distance shrinks for the last elements
+constexpr double kOnSpacing = 6;     // candidates on each squared spacing of the surface
+constexpr int kBisections = 16;      // of the distance, in powers
+constexpr double kCloser = 0.9;      // by which the distance shrinks for the last elements
+constexpr double kSamePlace = 1e-9;  // [spacing] candidates no farther apart are one
 
 // Shares of the time when candidates from the volume and then those from the surface are there, as measured
 // in shells; the rest throws darts.
@@ -33,7 +35,8 @@ class DartBoard {
     // Cells no narrower than the distance, and about as many as candidates.
     const double most = 4.0 * double(candidates.size()) + 4096;
     constexpr double kWiden = 1.2;
-    double size = distance;
+    // From a distance of nothing no widening would lead to few enough.
+    double size = std::max(distance, bounds.sizes().maxCoeff() / most);
     const auto cells = [&](double s) { return (bounds.sizes() / s).array().ceil().max(1.0).prod(); };
     while (cells(size) > most) size *= kWiden;
     m_scale = 1 / size;
@@ -96,7 +99,10 @@ class Spread {
     // The shortest distance at which no more remain than wanted, to a few per cent.
     double tooMany = m_def.spacing / 4;
     double fewEnough = m_mesh.diagonal();
-    while (tooMany > 0 && throwDarts(tooMany).size() < m_def.count) tooMany /= 4;
+    while (throwDarts(tooMany).size() < m_def.count) {
+      tooMany /= 4;
+      if (tooMany < kSamePlace * m_def.spacing) refuse();
+    }
     for (int k = 0; k < kBisections; ++k) {
       m_progress(kSurfaceDone + (1 - kSurfaceDone) * k / kBisections);
       const double middle = std::sqrt(tooMany * fewEnough);
@@ -158,12 +164,20 @@ class Spread {
     return taken;
   }
 
+  // There are several candidates for each element, unless the surface leaves no inside.
+  [[noreturn]] void refuse() const {
+    throw Error("mesh: only " + std::to_string(m_candidates.size()) + " places inside were found for " +
+                std::to_string(m_def.count) +
+                " elements: two sheets of its surface probably lie in the same place; allowed are closed "
+                "surfaces with an inside");
+  }
+
   // Goes on with shorter distances until there are as many as wanted.
   std::vector<std::uint32_t> fill(double distance) const {
     DartBoard board(m_candidates, m_mesh.bounds, distance);
     std::vector<std::uint32_t> taken;
     std::vector<bool> isTaken(m_candidates.size(), false);
-    for (; taken.size() < m_def.count && distance > 0; distance *= kCloser) {
+    for (; taken.size() < m_def.count; distance *= kCloser) {
       board.setDistance(distance);
       for (std::uint32_t c = 0; c < m_candidates.size() && taken.size() < m_def.count; ++c) {
         if (isTaken[c] || !board.isFree(c)) continue;

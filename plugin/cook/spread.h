@@ -26,7 +26,7 @@ struct SpreadDef {
 };
 
 /// Exactly `count` places, each with the room found there. `distance` is fitted to the radius. `progress` is
-/// told the share done.
+/// told the share done. Throws rubble::Error where there are not so many: the solid has hardly an inside.
 std::vector<Room> spread(const SignedDistance& distance, const CheckedMesh& mesh, const SpreadDef& def,
                          const std::function<void(double)>& progress);
 

@@ -72,9 +72,9 @@ double squaredDistance(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& pl
   return sum;
 }
 
-// Into axes along the long edges of the mesh, the last one along the longest, where the boxes around
-// triangles hold least but them. Large architecture is mostly made so.
-Eigen::Matrix3d turnTo(const CheckedMesh& mesh) {
+}  // namespace
+
+Eigen::Matrix3d axesAlongEdges(const CheckedMesh& mesh) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& [a, b] : mesh.edges) {
     const Eigen::Vector3d edge = (mesh.vertices[b] - mesh.vertices[a]) / mesh.diagonal();
@@ -82,8 +82,6 @@ Eigen::Matrix3d turnTo(const CheckedMesh& mesh) {
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().transpose();
 }
-
-}  // namespace
 
 Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -112,7 +110,7 @@ Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vec
   return a + besideAc / sum * ab + besideAb / sum * ac;
 }
 
-TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh), m_turn(turnTo(mesh)) {
+TriangleTree::TriangleTree(const CheckedMesh& mesh) : m_mesh(mesh), m_turn(axesAlongEdges(mesh)) {
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     m_vertices.emplace_back(m_turn * vertex);
     m_bounds.extend(m_vertices.back());

@@ -17,6 +17,10 @@ namespace rubble::cooking {
 Eigen::Vector3d closestOnTriangle(const Eigen::Vector3d& place, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+/// Turns into axes along the long edges of the mesh, the last one along the longest, in which the boxes
+/// around triangles hold least but them. Large architecture is mostly made so.
+Eigen::Matrix3d axesAlongEdges(const CheckedMesh& mesh);
+
 class TriangleTree {
  public:
   /// The mesh must outlive the tree.

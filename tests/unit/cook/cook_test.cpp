@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cook/elements.h"
+#include "rubble/repair.h"
 #include "support/strict_cook.h"
 #include "unit/cook/shapes.h"
 
@@ -145,6 +146,19 @@ TEST(Cook, RefusesAnEdgeWithFourTriangles) {
   expectError(mesh, optionsFor(8), "not manifold");
 }
 
+// Two cubes that share one vertex: repair parts it, and they are two parts tied to none.
+TEST(Cook, RefusesAVertexOfTwoFans) {
+  SurfaceMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1, 1, 1}));
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& v : triangle)
+      if (v == 8) v = 7;  // (-, -, -) of the second is (+, +, +) of the first
+  expectError(mesh, optionsFor(60), "touch in one corner alone, at (0.5, 0.5, 0.5), triangles ");
+  const RepairedMesh repaired = repair(mesh);
+  EXPECT_EQ(repaired.done, std::vector<std::string>{"parted 1 corner in which alone surfaces touched"});
+  const Asset asset = cookStrictly(repaired.mesh, optionsFor(60));  // a tie between them would be warned of
+  EXPECT_NEAR(asset.volume(), 2, 1e-9);
+}
+
 TEST(Cook, RefusesATriangleTurnedRound) {
   SurfaceMesh mesh = boxMesh({1, 1, 1});
   std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
@@ -205,6 +219,7 @@ TEST(Cook, SaysWhatFitsWhenTheElementsDoNot) {
   expectError(boxMesh({1, 1, 1}), options, "times the mesh's volume");
   options.elements = 1;
   expectError(boxMesh({1, 1, 1}), options, "no sphere of radius 0.6 m fits");
+  expectError(boxMesh({1, 1, 1}), options, "none of this radius fits, or a radius of about ");
   options.elements = 200;  // fills 0.84: less than the volume, more than any packing
   options.radius = 0.1;
   expectError(boxMesh({1, 1, 1}), options, "do not fit: they overlap by up to");

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "cook/grid_distance.h"
+#include "cook/spread.h"
 #include "cook/triangle_tree.h"
 #include "support/strict_cook.h"
 #include "unit/cook/packed.h"
@@ -140,6 +141,15 @@ TEST(TriangleTree, ClosestPointOfATriangleIsCloserThanItsOtherPoints) {
     EXPECT_LE(found, sampled + 1e-12);
     EXPECT_GE(found, sampled - 0.05);  // the samples are 2 / 40 apart
   }
+}
+
+// Two boxes in the same place leave hardly a place inside: an error, where it looked for one without end.
+TEST(Packing, SpreadingEndsWhereNoPlacesAreLeft) {
+  const cooking::CheckedMesh solid =
+      cooking::checkMesh(joined(boxMesh(Eigen::Vector3d::Ones()), boxMesh(Eigen::Vector3d::Ones())));
+  const auto distance = cooking::signedDistance(solid);
+  distance->fitTo(0.1);
+  EXPECT_THROW(cooking::spread(*distance, solid, {60, 0.1, 0.3, 1}, [](double) {}), Error);
 }
 
 }  // namespace

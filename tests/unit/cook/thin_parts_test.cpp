@@ -175,5 +175,18 @@ TEST(ThinParts, OfMostOfTheSolidMakeTheElementsSmall) {
   EXPECT_EQ(warnings.take("are thinner than the elements"), 1);
 }
 
+// A cube and two grains, one of which gets its element last: what was amiss before is not told.
+TEST(ThinParts, ThatGetTheirElementLastAreNotToldToBeFarFromOne) {
+  ExpectedWarnings warnings;
+  SurfaceMesh grain = ball(0.005, 12);
+  for (Eigen::Vector3d& vertex : grain.vertices) vertex += Eigen::Vector3d(0.7, 0, 0);
+  const SurfaceMesh mesh = joined(
+      joined(boxMesh({1, 1, 1}), boxMesh(Eigen::Vector3d::Constant(0.02), {1.01, -0.49, -0.49})), grain);
+  const Asset asset = cook(mesh, optionsFor(2048), {}, warnings.log());
+  EXPECT_LE(farthestCorner(asset), 3);
+  EXPECT_EQ(warnings.take("cook: 1 part of the mesh had no element and gets one, which protrudes"), 1);
+  warnings.take("an element protrudes by");
+}
+
 }  // namespace
 }  // namespace rubble::test
