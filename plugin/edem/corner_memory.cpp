@@ -8,6 +8,8 @@ namespace rubble::edem {
 namespace {
 
 constexpr std::size_t kFewestSlots = 16;
+// Of depths of one instant that are worked out twice.
+constexpr double kRounding = 1e-3;
 
 std::size_t hashOf(const CornerName& name) {
   std::uint64_t hash = name.part;
@@ -66,14 +68,18 @@ void CornerMemories::forget(std::uint32_t body) {
 }
 
 // A corner that slides from one cell into the next presses it as deep as it did, and by how much it has come
-// nearer in the last step, but no deeper than it is in it and by no stiffer a spring.
+// nearer in the last step, but no deeper than it is in it and by no stiffer a spring. So does one that goes
+// over to another face of its cell, deeper or less deep by more than its way.
 CornerMemory& CornerMemories::press(const CornerName& name, const CornerPress& press) {
   CornerMemory* now = m_now.find(name);
   // Looked at again at one instant, it goes on from there.
   const CornerMemory* last = now ? now : m_before.find(name);
   CornerMemory next{name, press.body, press.element, 0, press.depth - press.way};
   next.stiffness = press.stiffness;
-  const bool slides = last && (last->body != press.body || last->element != press.element);
+  const bool isElsewhere = last && (last->body != press.body || last->element != press.element);
+  const double depthLast = last ? last->pressed + last->sunk : 0;
+  const bool slides = last && (isElsewhere || std::abs(press.depth - depthLast) >
+                                                  press.way + kRounding * (press.depth + depthLast));
   if (slides) {
     const double wanted = std::max(0.0, last->pressed + 0.5 * (press.nearerLast + press.nearer));
     const bool stiffer = press.stiffness > last->stiffness;
