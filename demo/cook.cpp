@@ -34,7 +34,7 @@ void checkNumbers(const CookFileOptions& options) {
   };
   if (options.elements) check("--elements", double(*options.elements), limits::kElements);
   if (options.radius) check("--radius", *options.radius, {1e-6, limits::kElementRadius.high});
-  check("--scale", options.scale, kMeshScale);
+  if (options.scale) check("--scale", *options.scale, kMeshScale);
 }
 
 void checkTarget(const CookFileOptions& options) {
@@ -65,9 +65,15 @@ CookOptions cookOptions(const CookFileOptions& given, const SurfaceMesh& mesh) {
   return options;
 }
 
+void adviseOnUnit(const CookFileOptions& given, const SurfaceMesh& mesh) {
+  const std::string advice = unitAdvice(mesh, "cook it with --scale 0.001");
+  if (!advice.empty()) consoleLog()(LogLevel::Warning, given.mesh.string() + ": " + advice);
+}
+
 SurfaceMesh meshOf(const CookFileOptions& given) {
   try {
-    const SurfaceMesh mesh = readSolid(given.mesh, given.scale);
+    const SurfaceMesh mesh = readSolid(given.mesh, given.scale.value_or(1));
+    if (!given.scale) adviseOnUnit(given, mesh);
     if (!given.repair) return mesh;
     return repairSolid(mesh, [&given](LogLevel, const std::string& line) {
       std::cerr << "rubble: " << given.mesh.string() << ": " << line << '\n';

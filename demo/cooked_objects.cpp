@@ -30,6 +30,8 @@ bool readAlike(const SceneObject& a, const SceneObject& b) {
 // The surface in the object's file, mended where the scene says so.
 SurfaceMesh readObject(const SceneObject& object, const LogFunction& log) {
   SurfaceMesh mesh = readSolid(object.mesh, object.scale);
+  const std::string advice = object.isScaleGiven ? "" : unitAdvice(mesh, "give it the key \"scale\": 0.001");
+  if (log && !advice.empty()) log(LogLevel::Warning, object.mesh.string() + ": " + advice);
   if (!object.repair) return mesh;
   return repairSolid(mesh, [&](LogLevel level, const std::string& line) {
     if (log) log(level, object.mesh.string() + ": " + line);

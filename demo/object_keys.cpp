@@ -21,6 +21,8 @@ using Shape = SceneObject::Shape;
 constexpr Limits kSegments = {8, 256};                       // more are not seen, and each is drawn
 constexpr Limits kPartOfColumn = {0, limits::kLength.high};  // [m]; 0 is chosen
 constexpr Limits kCorner = {0, limits::kLength.high};        // of an opening [m]
+constexpr Limits kBricks = {1, 256};                         // each is drawn and takes its elements
+constexpr Limits kOffset = {0, 1};                           // [a brick and a joint]
 constexpr std::size_t kMostOpenings = 64;                    // the blocks of a slab grow with their square
 
 Key<Material> materialPreset() {
@@ -140,7 +142,8 @@ std::function<bool(const SceneObject&)> is(Shape shape) {
 
 bool isRound(const SceneObject& o) {
   if (!isShape(o)) return false;
-  return o.shape != Shape::Box && o.shape != Shape::Slab && o.shape != Shape::Statue;
+  return o.shape == Shape::Cylinder || o.shape == Shape::Sphere || o.shape == Shape::Torus ||
+         o.shape == Shape::Column;
 }
 
 bool isCookedHere(const SceneObject& o) {
@@ -244,9 +247,20 @@ Key<SceneObject> shape() {
                                    {"torus", Shape::Torus},
                                    {"column", Shape::Column},
                                    {"slab", Shape::Slab},
-                                   {"statue", Shape::Statue}},
+                                   {"statue", Shape::Statue},
+                                   {"brick_course", Shape::BrickCourse}},
                                   "form of the solid; cylinder, torus and column stand along y")
       .only("shapes", isShape);
+}
+
+Key<SceneObject> scale() {
+  Key<SceneObject> key =
+      number<SceneObject>("scale", &SceneObject::scale, kMeshScale, "m", "length of one unit of the mesh");
+  key.read = [read = key.read](SceneObject& target, const Json& json, const Place& place) {
+    read(target, json, place);
+    target.isScaleGiven = true;
+  };
+  return std::move(key).only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); });
 }
 
 Key<SceneObject> anchor() {
@@ -341,8 +355,7 @@ const Table<SceneObject>& objectKeys() {
   static const Table<SceneObject> table = withOwnMotion(withPlacement<SceneObject>(
       {
           file("mesh", &SceneObject::mesh, "closed surface to cook instead of a shape: OBJ, OFF, PLY or STL"),
-          number<SceneObject>("scale", &SceneObject::scale, kMeshScale, "m", "length of one unit of the mesh")
-              .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
+          scale(),
           flag<SceneObject>("repair", &SceneObject::repair, "mends the mesh first, as `rubble cook --repair`")
               .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
           file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
@@ -351,8 +364,9 @@ const Table<SceneObject>& objectKeys() {
                               "what in the mesh's own coordinates stands at `position`")
               .only("meshes and assets", [](const SceneObject& o) { return !isShape(o); }),
           shape(),
-          vector<SceneObject>("size", &SceneObject::size, limits::kLength, "m",
-                              "full edge lengths of the box, or of the box around the shape")
+          vector<SceneObject>(
+              "size", &SceneObject::size, limits::kLength, "m",
+              "full edge lengths of the box, or of the box around the shape; of one brick of a brick_course")
               .only("shapes", isShape)
               .required()
               .must(torusSize, {"shape"}),
@@ -366,6 +380,18 @@ const Table<SceneObject>& objectKeys() {
               .only("column", is(Shape::Column))
               .must(plinthLimit, {"size"}),
           openings(),
+          whole<SceneObject>("bricks", &SceneObject::bricks, kBricks, "",
+                             "how many lie in a row along x; each is a part of its own")
+              .only("brick_course", is(Shape::BrickCourse)),
+          number<SceneObject>("joint", &SceneObject::joint, limits::kLength, "m",
+                              "width of the gap between two bricks")
+              .only("brick_course", is(Shape::BrickCourse)),
+          number<SceneObject>(
+              "offset", &SceneObject::offset, kOffset, "",
+              "of the joints, in bricks with a joint; the ends stay where they are and are cut: 0.5 in "
+              "every other row is running bond")
+              .only("brick_course", is(Shape::BrickCourse))
+              .must([](const SceneObject& o) { return wrongOffset(brickCourseOf(o)); }, {"size", "joint"}),
           whole<SceneObject>("elements", &SceneObject::elements, limits::kElements, "",
                              "how many elements it is cut into")
               .only("shapes and meshes", isCookedHere),

@@ -35,6 +35,10 @@ double plinthOf(const SceneObject& column) {
   return column.plinth > 0 ? column.plinth : kPlinth * column.size.y();
 }
 
+BrickCourse brickCourseOf(const SceneObject& object) {
+  return {object.size, object.bricks, object.joint, object.offset};
+}
+
 SurfaceMesh primitiveMesh(const SceneObject& object) {
   switch (object.shape) {
     case SceneObject::Shape::Box:
@@ -51,6 +55,8 @@ SurfaceMesh primitiveMesh(const SceneObject& object) {
       return slabMesh(object.size, object.openings);
     case SceneObject::Shape::Statue:
       return statueMesh(object.size);
+    case SceneObject::Shape::BrickCourse:
+      return brickCourseMesh(brickCourseOf(object));
   }
   return boxMesh(object.size);
 }

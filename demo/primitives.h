@@ -2,6 +2,7 @@
 // are written with; an application has meshes of its own.
 #pragma once
 
+#include "demo/brick_mesh.h"
 #include "demo/scene.h"
 #include "rubble/cook.h"
 
@@ -11,6 +12,8 @@ namespace rubble::demo {
 double shaftOf(const SceneObject& column);
 /// Height of a column's base and of its capital [m]: as given, or chosen where it is 0.
 double plinthOf(const SceneObject& column);
+
+BrickCourse brickCourseOf(const SceneObject& object);
 
 /// The closed surface of an object without a mesh or an asset, about its own centre.
 SurfaceMesh primitiveMesh(const SceneObject& object);

@@ -25,19 +25,23 @@ struct Placement {
 
 /// Something that can break: a solid by its name, that in a mesh file, or an asset that was cooked before.
 struct SceneObject : Placement {
-  std::filesystem::path mesh = {};   ///< empty: none
-  double scale = 1;                  ///< of one unit of the mesh [m]
+  std::filesystem::path mesh = {};  ///< empty: none
+  double scale = 1;                 ///< of one unit of the mesh [m]
+  bool isScaleGiven = false;
   bool repair = false;               ///< the mesh, before it is cooked
   std::filesystem::path asset = {};  ///< empty: none
   /// The place in the mesh's coordinates, or in those of the asset's mesh, that stands at `position` [m].
   Eigen::Vector3d meshOrigin = Eigen::Vector3d::Zero();
-  enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue };
+  enum class Shape { Box, Cylinder, Sphere, Torus, Column, Slab, Statue, BrickCourse };
   Shape shape = Shape::Box;
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full edge lengths of the box, or the one around it [m]
   std::uint32_t segments = 32;                     ///< flat strips around what is round
   double shaft = 0;                                ///< diameter, of a column [m]; 0: chosen
   double plinth = 0;                               ///< height of a column's base and capital [m]; 0: chosen
   std::vector<Opening> openings = {};              ///< of a slab
+  std::uint32_t bricks = 4;                        ///< of a brick course
+  double joint = 0.01;                             ///< between its bricks [m]
+  double offset = 0;                               ///< of its joints [a brick and a joint]
   std::uint32_t elements = 2048;
   double radius = 0;  ///< of the elements [m]; 0: chosen so that the spheres fill `fill` of the solid
   double fill = 0.48;

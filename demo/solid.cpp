@@ -10,10 +10,18 @@
 namespace rubble::demo {
 namespace {
 
-double acrossOf(const SurfaceMesh& mesh) {
+// Most buildings are shorter, and what is drawn in millimetres and larger than 0.1 m is longer [m].
+constexpr double kLongest = 100;
+
+Eigen::AlignedBox3d boundsOf(const SurfaceMesh& mesh) {
   Eigen::AlignedBox3d bounds;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) bounds.extend(mesh.vertices[corner]);
+  return bounds;
+}
+
+double acrossOf(const SurfaceMesh& mesh) {
+  const Eigen::AlignedBox3d bounds = boundsOf(mesh);
   return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
@@ -27,6 +35,15 @@ SurfaceMesh readSolid(const std::filesystem::path& file, double scale) {
   text << file.string() << ": is " << across << " m across with " << scale << " m a unit, must be "
        << limits::kLength.text() << " m; a scale changes it";
   throw Error(text.str());
+}
+
+std::string unitAdvice(const SurfaceMesh& mesh, const std::string& way) {
+  const Eigen::AlignedBox3d bounds = boundsOf(mesh);
+  const double longest = bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
+  if (longest <= kLongest) return "";
+  std::ostringstream text;
+  text << "is " << longest << " m long; if its units are millimetres, " << way;
+  return text.str();
 }
 
 SurfaceMesh repairSolid(const SurfaceMesh& mesh, const LogFunction& log) {

@@ -19,6 +19,10 @@ inline constexpr Limits kMeshPlace = {-1e9, 1e9};
 /// its size is none that a solid may have.
 SurfaceMesh readSolid(const std::filesystem::path& file, double scale);
 
+/// What to say of a mesh that was read without a scale and is longer than 100 m, "is 800 m long; if its units
+/// are millimetres, ..."; `way` is how a scale is given. Else nothing.
+std::string unitAdvice(const SurfaceMesh& mesh, const std::string& way);
+
 /// The mesh as rubble::repair mends it. `log` is told what was done and what was not.
 SurfaceMesh repairSolid(const SurfaceMesh& mesh, const LogFunction& log);
 

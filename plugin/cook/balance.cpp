@@ -17,6 +17,8 @@ constexpr double kFarthest = 0.3;
 constexpr double kFarthestInCell = 0.25;
 // What an asset allows is 0.5, see asset_distances.cpp [r].
 constexpr double kApart = 0.51;
+// Centre and spread, of the solid's size: the rest is rounding.
+constexpr double kExact = 1e-9;
 // Elements in a plane or on a line have no extent that could be stretched: below this share of the largest.
 constexpr double kFlat = 1e-12;
 
@@ -110,6 +112,57 @@ bool areApart(std::span<const Eigen::Vector3d> places, double least) {
   return true;
 }
 
+double errorOf(const Mass& mass, const Mass& wanted) {
+  const double size = wanted.spread.trace();
+  return std::max((mass.centre - wanted.centre).norm() / std::sqrt(size),
+                  (mass.spread - wanted.spread).norm() / size);
+}
+
+// The fields along which elements move, at q from their centre: three shifts and six stretches.
+Eigen::Matrix<double, 3, 9> fieldsAt(const Eigen::Vector3d& q) {
+  Eigen::Matrix<double, 3, 9> fields;
+  fields << Eigen::Matrix3d::Identity(), Eigen::Matrix3d(q.asDiagonal()),
+      (Eigen::Matrix3d() << q.y(), q.z(), 0, q.x(), 0, q.z(), 0, q.x(), q.y()).finished();
+  return fields;
+}
+
+// Each element by a shift and a symmetric stretch times the square of its room: the moves that are the least
+// in the mean square over that room (normal equations; 9 unknowns for 9 moments). One step of Newton's.
+void moveByRoom(const Mass& points, const Mass& target, std::span<const CellMoments> cells, double radius,
+                std::vector<Eigen::Vector3d>& places) {
+  const Eigen::Vector3d shift = target.centre - points.centre;
+  const Eigen::Matrix3d spread = (target.spread - points.spread) / 2;
+  Eigen::Matrix<double, 9, 1> wanted;
+  wanted << shift, spread.diagonal(), 2 * spread(0, 1), 2 * spread(0, 2), 2 * spread(1, 2);
+  double volume = 0;
+  for (const CellMoments& cell : cells) volume += cell.volume;
+  Eigen::Matrix<double, 9, 9> moments = Eigen::Matrix<double, 9, 9>::Zero();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const double room = farthestMove(cells[i], radius) / radius;
+    const auto fields = fieldsAt(places[i] - points.centre);
+    moments += cells[i].volume / volume * room * room * fields.transpose() * fields;
+  }
+  const Eigen::Matrix<double, 9, 1> factors = moments.ldlt().solve(wanted);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const double room = farthestMove(cells[i], radius) / radius;
+    places[i] += room * room * fieldsAt(places[i] - points.centre) * factors;
+  }
+}
+
+// What one stretch of all cannot do where thin cells stand beside thick ones: those with room move. Empty
+// where that takes more room than there is.
+std::vector<Eigen::Vector3d> balancedByRoom(const Mass& target, std::span<const CellMoments> cells,
+                                            double radius, const std::vector<Eigen::Vector3d>& places) {
+  constexpr int kSteps = 8;  // each squares the error
+  std::vector<Eigen::Vector3d> moved = places;
+  for (int step = 0; step < kSteps; ++step) {
+    moveByRoom(massOf(cells, moved), target, cells, radius, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (!((moved[i] - places[i]).norm() <= farthestMove(cells[i], radius))) return {};
+  }
+  return areApart(moved, kApart * radius) ? moved : std::vector<Eigen::Vector3d>();
+}
+
 std::vector<Eigen::Vector3d> centroidsOf(std::span<const CellMoments> cells) {
   std::vector<Eigen::Vector3d> centroids;
   for (const CellMoments& cell : cells) centroids.push_back(cell.centroid);
@@ -133,14 +186,19 @@ Balanced balance(const CheckedMesh& solid, std::span<const CellMoments> cells,
     }
   }
 
+  const Mass target{wanted.centre, wanted.spread - own * Eigen::Matrix3d::Identity()};
+  const std::vector<Eigen::Vector3d> packed = places;
   if ((wanted.centre - points.centre).norm() <= farthest) {
-    const Eigen::Matrix3d target = wanted.spread - own * Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d stretch =
-        within(radius, leastStretch(points.spread, target), points.centre, cells, places);
+        within(radius, leastStretch(points.spread, target.spread), points.centre, cells, places);
     std::vector<Eigen::Vector3d> moved;
     for (const Eigen::Vector3d& place : places)
       moved.push_back(wanted.centre + stretch * (place - points.centre));
     if (areApart(moved, kApart * radius)) places = std::move(moved);
+  }
+  if (const double error = errorOf(massOf(cells, places), target); error > kExact) {
+    std::vector<Eigen::Vector3d> moved = balancedByRoom(target, cells, radius, packed);
+    if (!moved.empty() && errorOf(massOf(cells, moved), target) < error) places = std::move(moved);
   }
 
   const auto inertiaOf = [](const Eigen::Matrix3d& spread) {

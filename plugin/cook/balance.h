@@ -30,7 +30,9 @@ struct Balanced {
 /// Along axes on which an element would have to move by more than 0.3 `radius` or a quarter of its cell's
 /// thickness, the stretch is left out: there the solid is too thin for elements whose own inertia is the same
 /// about every axis. Where the shift alone is that far, which takes a handful of elements or cells much
-/// larger than they, elements begin at the centroids of their cells. Elements do not come nearer to one
+/// larger than they, elements begin at the centroids of their cells. Where that does not reach, as of a cup
+/// whose wall is thinner than its foot, each moves by the square of its own room instead, those of thin cells
+/// hardly, if it then does. Elements do not come nearer to one
 /// another than half a radius. (n each)
 Balanced balance(const CheckedMesh& solid, std::span<const CellMoments> cells,
                  std::vector<Eigen::Vector3d> places, double radius);

@@ -32,7 +32,8 @@ struct PolygonSoup {
 /// Formats that are read here: `Stl` in its text form.
 enum class PolygonFormat { Off, Stl };
 
-/// Empty if the bytes are not of that format.
+/// Empty if the bytes are not of that format. Throws rubble::Error that names the line where that is for a
+/// coordinate that is not finite.
 PolygonSoup parsePolygons(std::string bytes, PolygonFormat format);
 
 }  // namespace rubble::cooking

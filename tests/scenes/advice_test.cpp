@@ -77,6 +77,27 @@ TEST_F(Advice, FloorOfTheDustOffTheGroundIsNamed) {
             "at the wrong height\n");
 }
 
+// A tetrahedron with edges of 800 and 50 units along the axes.
+TEST_F(Advice, MeshesWhoseUnitLooksLikeMillimetresAreNamed) {
+  const auto tetrahedron = [](const std::string& longest) {
+    return "v 0 0 0\nv " + longest + " 0 0\nv 0 50 0\nv 0 0 50\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  };
+  const auto told = [&](const std::string& longest, const std::string& keys) {
+    const std::string mesh = m_folder.write("a.obj", tetrahedron(longest));
+    const Scene scene = load(R"({"objects": [{"mesh": "a.obj", "elements": 8)" + keys + "}]}");
+    m_warnings.clear();
+    demo::cookObjects(scene, {}, log());
+    const auto at = m_warnings.find(mesh + ": is ");
+    return at == m_warnings.npos
+               ? ""
+               : m_warnings.substr(at + mesh.size() + 2, m_warnings.find('\n', at) - at - mesh.size() - 2);
+  };
+  EXPECT_EQ(told("800", ""), "is 800 m long; if its units are millimetres, give it the key \"scale\": 0.001");
+  EXPECT_EQ(told("800", R"(, "scale": 1)"), "");  // metres are meant
+  EXPECT_EQ(told("800", R"(, "scale": 0.001)"), "");
+  EXPECT_EQ(told("100", ""), "");
+}
+
 // rho g H of concrete_soft: 2400 kg/m^3 x 9.81 m/s^2 x 300 m = 7.06 MPa against f_c = 2 MPa.
 TEST_F(Advice, AWallThatItsWeightCrushesIsTold) {
   EXPECT_EQ(

@@ -97,6 +97,22 @@ TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
+// 800 units long; nothing is refused.
+TEST_F(CookProgram, WarnsOfAMeshThatLooksLikeMillimetres) {
+  m_folder.write("long.obj",
+                 "v 0 0 0\nv 800 0 0\nv 0 300 0\nv 0 0 300\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string warning =
+      "rubble: warning: long.obj: is 800 m long; if its units are millimetres, cook it with --scale 0.001\n";
+  const auto told = [&](const std::string& scale) {
+    const ChildResult result = run("cook long.obj -o a.rubble-asset --elements 20" + scale);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    return result.error;
+  };
+  EXPECT_EQ(told("").find(warning), 0u) << told("");
+  EXPECT_EQ(told(" --scale 1").find("millimetres"), std::string::npos);
+  EXPECT_EQ(told(" --scale 0.001").find("millimetres"), std::string::npos);
+}
+
 // In metres, of the mesh as scaled: the faces y = 0 and y = 1 of 2 x 0.5, each by a box of its own.
 TEST_F(CookProgram, TiesWhatIsInBoxes) {
   m_folder.write("box.obj", kBox);

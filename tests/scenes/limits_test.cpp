@@ -179,7 +179,8 @@ TEST_F(SceneLimits, EveryNumberOfASceneIsLookedAt) {
       // the size of the scaled mesh is what counts (cook_program_test.cpp)
       "objects.N.scale",
       // of named shapes (primitive_test.cpp)
-      "objects.N.segments", "objects.N.shaft", "objects.N.plinth",
+      "objects.N.segments", "objects.N.shaft", "objects.N.plinth", "objects.N.bricks", "objects.N.joint",
+      "objects.N.offset",
       // of Bullet's own bodies
       "objects.N.mesh_origin", "impactors.N.radius", "impactors.N.size", "impactors.N.mass",
       "impactors.N.position", "impactors.N.velocity", "impactors.N.spin", "impactors.N.friction",

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "cook/checked_mesh.h"
+#include "cook/parts.h"
 #include "demo/implicit_mesh.h"
 #include "demo/input_error.h"
 #include "demo/statue_mesh.h"
@@ -104,6 +105,17 @@ std::vector<Case> cases() {
        {2, 1, 0.1},
        0.1 * (2 - 0.21 - 0.06 - 0.09),
        0},
+      {"course of bricks",
+       R"("shape": "brick_course", "size": [0.25, 0.06, 0.12], "bricks": 4, "joint": 0.01)",
+       {1.03, 0.06, 0.12},
+       4 * 0.25 * 0.06 * 0.12,
+       4 * 2},
+      // One joint more, in what was brick.
+      {"course of bricks that begins and ends with a half",
+       R"("shape": "brick_course", "size": [0.25, 0.06, 0.12], "bricks": 4, "joint": 0.01, "offset": 0.5)",
+       {1.03, 0.06, 0.12},
+       (4 * 0.25 - 0.01) * 0.06 * 0.12,
+       5 * 2},
   };
 }
 
@@ -189,6 +201,45 @@ TEST(Implicit, BallTorusAndBoxAreClosedAndOfTheRightVolume) {
   check([](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() - 0.9; }, 1.8 * 1.8 * 1.8, 5e-3, 2);
 }
 
+// Low and high end of each brick along x, in order.
+std::vector<Eigen::Vector2d> bricksOf(const std::string& keys) {
+  const SurfaceMesh mesh = demo::primitiveMesh(
+      objectOf(R"("shape": "brick_course", "size": [0.2, 0.06, 0.1], "bricks": 3, "joint": 0.02)" + keys));
+  std::vector<Eigen::Vector2d> bricks;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double x = mesh.vertices[v].x();
+    if (v % 8 == 0) bricks.emplace_back(x, x);
+    bricks.back() = {std::min(bricks.back()[0], x), std::max(bricks.back()[1], x)};
+  }
+  return bricks;
+}
+
+// 3 bricks of 0.2 m and 2 joints of 0.02 m take 0.64 m. A half is what two halves and a joint make a brick
+// of.
+TEST(Primitive, BricksLieAJointApartAndHalvesEndTheNextCourse) {
+  const auto check = [](const std::vector<Eigen::Vector2d>& bricks,
+                        const std::vector<Eigen::Vector2d>& expected) {
+    ASSERT_EQ(bricks.size(), expected.size());
+    for (std::size_t k = 0; k < bricks.size(); ++k) EXPECT_LT((bricks[k] - expected[k]).norm(), 1e-12) << k;
+  };
+  check(bricksOf(""), {{-0.32, -0.12}, {-0.1, 0.1}, {0.12, 0.32}});
+  check(bricksOf(R"(, "offset": 0.5)"), {{-0.32, -0.23}, {-0.21, -0.01}, {0.01, 0.21}, {0.23, 0.32}});
+  check(bricksOf(R"(, "offset": 0.25)"), {{-0.32, -0.285}, {-0.265, -0.065}, {-0.045, 0.155}, {0.175, 0.32}});
+}
+
+// Springs tie each brick to itself alone: as many parts as bricks.
+TEST(Primitive, BricksOfACourseArePartsOfTheirOwn) {
+  for (const auto& [offset, bricks] : {std::pair("0", 4u), std::pair("0.5", 5u)}) {
+    CookOptions options;
+    options.elements = 200;
+    const Asset asset = cookStrictly(
+        demo::primitiveMesh(objectOf(R"("shape": "brick_course", "size": [0.25, 0.06, 0.12], "offset": )" +
+                                     std::string(offset))),
+        options);
+    EXPECT_EQ(cooking::countTied(asset.elementCount(), asset.springs), bricks);
+  }
+}
+
 std::string refusalOf(const std::string& keys) {
   try {
     sceneOf(keys);
@@ -211,6 +262,17 @@ TEST(Primitive, IsRefusedWhereItWouldBeNone) {
             "objects.0.shaft: is 0.4, must be at most 0.396, 0.99 of x and z of the size");
   EXPECT_EQ(refusalOf(R"("shape": "column", "size": [0.4, 1, 0.5], "plinth": 0.5)"),
             "objects.0.plinth: is 0.5, must be at most 0.49, 0.49 of y of the size");
+  const std::string course = R"("shape": "brick_course", "size": [0.2, 0.06, 0.1], "joint": )";
+  EXPECT_EQ(
+      refusalOf(course + R"(0.05, "offset": 0.9)"),
+      "objects.0.offset: is 0.9, must be 0, or 0.28 to 0.72, so that a tenth of a brick is left at both "
+      "ends");
+  EXPECT_EQ(refusalOf(course + R"(0.3, "offset": 0.5)"),
+            "objects.0.offset: is 0.5, must be 0 where the joints are so wide");
+  EXPECT_EQ(refusalOf(course + "0"), "objects.0.joint: is 0, must be 1e-04 to 100000");
+  EXPECT_EQ(refusalOf(course + R"(0.01, "bricks": 0)"),
+            "objects.0.bricks: is 0, must be a whole number 1 to 256");
+  EXPECT_EQ(refusalOf(R"("size": [1, 1, 1], "bricks": 8)").find("objects.0.bricks: unknown key"), 0u);
   EXPECT_EQ(refusalOf(R"("size": [1, 1, 1], "segments": 8)").find("objects.0.segments: unknown key"), 0u);
   EXPECT_EQ(refusalOf(R"("shape": "slab", "size": [1, 1, 1], "segments": 8)")
                 .find("objects.0.segments: unknown key"),

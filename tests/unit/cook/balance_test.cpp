@@ -110,6 +110,16 @@ TEST(Balance, ElementsOfATiltedRingAndATableTurnAsTheyDo) {
   }
 }
 
+// Cells of the wall have little room beside those of the foot.
+TEST(Balance, ACupWithAFootTurnsAsTheSolid) {
+  const Moments wanted = together(
+      {{1, boxMoments({1, 1, 1}, {0.5, 0.5, 0.5})}, {-1, boxMoments({0.9, 0.7, 0.9}, {0.5, 0.65, 0.5})}});
+  for (const std::size_t count : {512u, 2048u}) {
+    SCOPED_TRACE(count);
+    expectSame(momentsOf(cook(cup(), optionsFor(count))), wanted, 2, 1e-8);
+  }
+}
+
 // No scalar inertia of elements as wide as a plate, or wider, is that of the plate about every axis, and a
 // handful of points spans no space.
 TEST(Balance, FewElementsKeepMassAndCentre) {

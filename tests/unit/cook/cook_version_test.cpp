@@ -55,6 +55,7 @@ std::uint64_t cookedHash() {
   add(hollowCube(), usual);
   add(tilted(shell()), usual);
   add(table(0.05, 0.05), usual);
+  add(cup(), optionsFor(512));
   add(slottedSlab(0.01), usual);
   add(plateAndCube(0.02), usual);
   add(farBox(), usual);

@@ -186,7 +186,20 @@ TEST_F(ReadMesh, RefusesNumbersThatAreNotFinite) {
   expectError("inf.obj", "v 0 0 0\nv 0 -inf 0\nv 0 1 0\nf 1 2 3\n", "line 2 is no vertex");
   expectError("huge.obj", "v 1e999 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 1 is no vertex");
   expectError("short.obj", "v 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 1 is no vertex");
-  expectError("nan.off", "OFF\n3 1 0\nnan 0 0\n0 1 0\n0 0 1\n3 0 1 2\n", "finite");
+  for (const char* word : {"nan", "-NaN", "inf", "-Infinity", "1e999", "-1.#IND"}) {
+    SCOPED_TRACE(word);
+    const std::string cause = std::string(" has ") + word + " for a coordinate; allowed: finite numbers";
+    expectError("nan.off", std::string("OFF # of nan\n3 1 0\n\n0 0 0\n0 ") + word + " 0\n0 0 1\n3 0 1 2\n",
+                "line 5" + cause);
+    // Its name and its normals are not looked at.
+    expectError("nan.stl",
+                std::string("solid nan\nfacet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                            "  vertex\t0 1 ") +
+                    word + "\r\nendloop\nendfacet\nendsolid nan\n",
+                "line 6" + cause);
+  }
+  // What else is wrong keeps its own cause.
+  expectError("short.off", "OFF\n3 1 0\n0 0 0\n0 1 0\n", "holds no faces");
   SurfaceMesh corner = read("corner.obj", kObj);
   corner.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
   expectError("nan.stl", binaryStl(corner), "vertex 1 is not finite");

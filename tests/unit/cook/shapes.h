@@ -205,6 +205,12 @@ inline SurfaceMesh table(double top, double leg) {
                 });
 }
 
+/// 1 m wide and high, with walls of 5 cm on a foot of 30 cm.
+inline SurfaceMesh cup() {
+  return blocks({{{0, 0.05, 0.95, 1}, {0, 0.3, 1}, {0, 0.05, 0.95, 1}}},
+                [](std::size_t i, std::size_t j, std::size_t k) { return i != 1 || j != 1 || k != 1; });
+}
+
 /// A slab of 1 x 0.3 x 1 m with a slot `gap` wide through it, from one side to 0.8 m deep.
 inline SurfaceMesh slottedSlab(double gap) {
   return blocks({{{0, 0.5 - gap / 2, 0.5 + gap / 2, 1}, {0, 0.3}, {0, 0.8, 1}}},
