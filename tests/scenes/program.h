@@ -13,9 +13,12 @@ namespace rubble::test {
 
 class Program : public testing::Test {
  protected:
+  ChildResult runThatMayWarn(const std::string& arguments) {
+    return runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments,
+                    m_folder.path());
+  }
   ChildResult run(const std::string& arguments) {
-    ChildResult result =
-        runChild("cd " + m_folder.path().string() + " && " RUBBLE_PROGRAM " " + arguments, m_folder.path());
+    ChildResult result = runThatMayWarn(arguments);
     EXPECT_EQ(result.error.find("rubble: warning: "), std::string::npos) << arguments << '\n' << result.error;
     return result;
   }
