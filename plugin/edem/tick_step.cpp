@@ -88,6 +88,11 @@ double longestStep(World<Real>& w, double dt) {
   const bool travels = speed > 0 && std::isfinite(radius);
   const double travel =
       kTravelShare * std::min(pass, travels ? radius / speed : std::numeric_limits<double>::infinity());
+  // A drift is that of the instant: what falls leaves it, and would be deep in what it meets by the next
+  // step.
+  const double way = kTravelShare * radius, fall = w.gravity.norm();
+  const double falls = fall > 0 ? 2 * way / (speed + std::sqrt(speed * speed + 4 * fall * way))
+                                : std::numeric_limits<double>::infinity();
   char text[200];
   if (stable < shortest) {
     std::snprintf(text, sizeof text,
@@ -107,7 +112,7 @@ double longestStep(World<Real>& w, double dt) {
   }
   // A blow on all that is near is followed as well as the substeps allow: it may be on less.
   const double blow = blowStep(w.rigid.blowFrequency2(w.bodies, w.drifts.proxies));
-  return std::min({dt, stable, travel, std::max(blow, shortest)});
+  return std::min({dt, stable, travel, std::max(falls, shortest), std::max(blow, shortest)});
 }
 
 template void hardenContacts(World<float>&);

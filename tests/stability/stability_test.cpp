@@ -21,6 +21,9 @@ INSTANTIATE_TEST_SUITE_P(Case, Stability, testing::Range(0, 25));
 // plate that goes through spheres.
 INSTANTIATE_TEST_SUITE_P(OnceBroken, Stability, testing::Values(57, 399, 86, 158, 252, 371, 79, 321));
 
+// Beyond the 500 of the table: what falls from rest by many radii in a tick is followed.
+INSTANTIATE_TEST_SUITE_P(Falls, Stability, testing::Values(901, 1087));
+
 // Cases that once stopped: elements too heavy to become debris, a light body that was not softened with the
 // others, a softness between what was tried and what is allowed, elements that have to be frozen, rounding
 // that was all the energy of a first tick.
