@@ -5,8 +5,6 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -34,10 +32,6 @@ constexpr double kCalmSpeed = 0.1;
 // sleep are helped to rest once they have been slower than this for half a second; they rise 3 mm by it
 // [m/s]. The half of a wall that a ball went through rings at 0.12.
 constexpr double kSettleSpeed = 0.25;
-// A run stops when dashpots, friction and restitution made more than this share of the energy in the world:
-// more than was put in. A blow that lasts has up to a tenth for a while (a crate of 50 kg on a slab), for
-// energy that restitution withholds while the surface still nears counts only as it parts.
-constexpr double kRunaway = 0.5;
 
 }  // namespace
 
@@ -368,135 +362,6 @@ void Destruction::Impl::closeLedger(double dt) {
   if (def.log)
     for (const std::string& line : lines) def.log(LogLevel::Warning, line);
   judgeDamping();
-}
-
-void Destruction::Impl::judgeDamping() {
-  const double made = -ledgerBook.lostByElements(), most = ledgerBook.ledger().energyScale;
-  // The ledger is of the instant of the last forces: in a first tick of one substep nothing had moved yet,
-  // and rounding is all the energy there is.
-  if (bodies.empty() || ticks == 0 || !(made > kRunaway * most)) return;
-  const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
-    return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
-  };
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "what should take energy from the elements, of which its are the fastest, made %.3g J of the "
-                "%.3g J in the world; lower substepSafety, or raise the material's restitution",
-                made, most);
-  fail(**std::max_element(bodies.begin(), bodies.end(), slower), text);
-}
-
-// The first failure counts.
-void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
-  if (!failure.empty()) return;
-  const DestructibleBody::Impl& own = body.impl();
-  failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice) + whenText();
-}
-
-std::string Destruction::Impl::whenText() const {
-  char text[80];
-  std::snprintf(text, sizeof text, " (tick %llu, after %.6g s)", static_cast<unsigned long long>(ticks),
-                seconds);
-  return text;
-}
-
-// The solver's message begins with the body, "body 3: ".
-void Destruction::Impl::failSolver() {
-  const std::string& text = solver->failure();
-  for (const DestructibleBody* body : bodies) {
-    const std::string head = "body " + std::to_string(body->id()) + ": ";
-    if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
-  }
-  failure = text + whenText();
-}
-
-// By the application, a joint or a neighbour: elements would follow.
-void Destruction::Impl::failSpoiled() {
-  for (const DestructibleBody* body : bodies) {
-    if (!body->isWhole()) continue;
-    const btTransform& at = body->getWorldTransform();
-    if (toEigen(at).matrix().allFinite() && toEigen(body->getLinearVelocity()).allFinite() &&
-        toEigen(body->getAngularVelocity()).allFinite())
-      continue;
-    fail(*body,
-         "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
-         "what "
-         "set it, or for forces and joints on it");
-  }
-}
-
-// Crushed elements become debris and dust (paper 3.2, 3.3).
-void Destruction::Impl::breakElements() {
-  BT_PROFILE("Rubble break elements");
-  Events& out = events[filling];
-  for (base::CrushedElement c : solver->report().crushed) {
-    DestructibleBody* body = bodyOf(c.body);
-    if (!body) continue;
-    DestructibleBody::Impl& own = body->impl();
-    ++crushed;
-    c.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
-    try {
-      own.spawner->spawn(c, own.asset->cellFaces(c.element), batch);
-    } catch (const Error& error) {  // numbers that have run away
-      return fail(*body,
-                  "element " + std::to_string(c.element) + " crushed: " + error.what() +
-                      "; lower substepSafety, or look for units other than metres, seconds, kilograms");
-    }
-    if (debrisSystem) {
-      debrisSystem->add(batch.pieces);
-      ledgerBook.addGiven(batch.energyGiven);
-    } else {
-      const debris::Motion whole = debris::motionOf(c.mass, c.inertia, c.centre, c.velocity, c.spin);
-      debris::Motion rest = whole;
-      rest -= batch.dustMotion;
-      ledgerBook.addRemoved(rest);
-    }
-    ledgerBook.addDust(batch.dustMotion);
-    const std::uint32_t pieces = debrisSystem ? std::uint32_t(batch.pieces.size()) : 0;
-    debrisSpawned += pieces;
-    record(out.elementsCrushed,
-           {c.body, c.element, pieces, float(c.mass), float(batch.dustMotion.mass), float(c.fractureEnergy),
-            float(c.maxRadius), c.centre.cast<float>(), c.velocity.cast<float>()});
-    for (std::uint32_t p = 0; p < pieces; ++p)
-      record(out.debrisSpawned,
-             {c.body, c.element, float(batch.pieces[p].radius), float(batch.pieces[p].mass)});
-    if (batch.dustMotion.mass > 0)
-      record(out.dustSources, {c.centre.cast<float>(), c.velocity.cast<float>(), float(batch.dustMotion.mass),
-                               float(own.material.dustRadius)});
-  }
-}
-
-void Destruction::Impl::stepDebris(double dt) {
-  BT_PROFILE("Rubble step debris");
-  if (debrisSystem->restingCount() > 0) {
-    debrisSystem->wakeSupports(surroundings->supports().takeDeparted());
-    for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
-      const btCollisionObject* object = world.getCollisionObjectArray()[i];
-      const btRigidBody* rigid = btRigidBody::upcast(object);
-      const bool moves = rigid && (object->isKinematicObject() || !object->isStaticObject());
-      if (!moves || !rigid->isActive() || upcastElements(object)) continue;
-      if (double(rigid->getLinearVelocity().length()) < kQuietSpeed) continue;
-      btVector3 low, high;
-      rigid->getAabb(low, high);
-      wakeBoxes.emplace_back(toEigen(low), toEigen(high));
-    }
-    if (!wakeBoxes.empty()) debrisSystem->wake(wakeBoxes);
-  } else {
-    surroundings->supports().clear();
-  }
-  wakeBoxes.clear();
-  if (debrisSystem->movingCount() > 0) {
-    try {
-      debrisSystem->step(dt, toEigen(world.getGravity()), *surroundings);
-    } catch (const Error& error) {  // numbers that have run away
-      failure = error.what() + whenText();
-      return;
-    }
-    ledgerBook.addPush(surroundings->push(debrisSystem->surfaceImpulses()));
-  }
-  const debris::Exchange exchange = debrisSystem->takeExchange();
-  debrisRemoved += std::uint32_t(exchange.removedCount);
-  ledgerBook.addExchange(exchange);
 }
 
 // Bullet has put islands to sleep, or woken them.

@@ -1,0 +1,76 @@
+// What ends the simulation, and how that is told.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "bullet/body_impl.h"
+#include "bullet/convert.h"
+#include "bullet/world_tick.h"
+
+namespace rubble {
+RUBBLE_ABI_BEGIN
+namespace {
+
+// A run stops when dashpots, friction and restitution made more than this share of the energy in the world:
+// more than was put in. A blow that lasts has up to a tenth for a while (a crate of 50 kg on a slab), for
+// energy that restitution withholds while the surface still nears counts only as it parts.
+constexpr double kRunaway = 0.5;
+
+}  // namespace
+
+void Destruction::Impl::judgeDamping() {
+  const double made = -ledgerBook.lostByElements(), most = ledgerBook.ledger().energyScale;
+  // The ledger is of the instant of the last forces: in a first tick of one substep nothing had moved yet,
+  // and rounding is all the energy there is.
+  if (bodies.empty() || ticks == 0 || !(made > kRunaway * most)) return;
+  const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
+    return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
+  };
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "what should take energy from the elements, of which its are the fastest, made %.3g J of the "
+                "%.3g J in the world; lower substepSafety, or raise the material's restitution",
+                made, most);
+  fail(**std::max_element(bodies.begin(), bodies.end(), slower), text);
+}
+
+// The first failure counts.
+void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
+  if (!failure.empty()) return;
+  const DestructibleBody::Impl& own = body.impl();
+  failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice) + whenText();
+}
+
+std::string Destruction::Impl::whenText() const {
+  char text[80];
+  std::snprintf(text, sizeof text, " (tick %llu, after %.6g s)", static_cast<unsigned long long>(ticks),
+                seconds);
+  return text;
+}
+
+// The solver's message begins with the body, "body 3: ".
+void Destruction::Impl::failSolver() {
+  const std::string& text = solver->failure();
+  for (const DestructibleBody* body : bodies) {
+    const std::string head = "body " + std::to_string(body->id()) + ": ";
+    if (text.starts_with(head)) return fail(*body, text.substr(head.size()));
+  }
+  failure = text + whenText();
+}
+
+// By the application, a joint or a neighbour: elements would follow.
+void Destruction::Impl::failSpoiled() {
+  for (const DestructibleBody* body : bodies) {
+    if (!body->isWhole()) continue;
+    const btTransform& at = body->getWorldTransform();
+    if (bullet::toEigen(at).matrix().allFinite() && bullet::toEigen(body->getLinearVelocity()).allFinite() &&
+        bullet::toEigen(body->getAngularVelocity()).allFinite())
+      continue;
+    fail(*body,
+         "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
+         "what set it, or for forces and joints on it");
+  }
+}
+
+RUBBLE_ABI_END
+}  // namespace rubble
