@@ -25,8 +25,8 @@ struct CookFileOptions {
 };
 
 /// Writes the asset and tells in one line what was made, and on stderr in one each what was repaired and what
-/// looks like a wrong unit. Throws
-/// InputError before the long work where it can, MachineError; the asset is written whole or not at all.
+/// looks like a wrong unit. Throws InputError before the long work where it can, MachineError; the asset is
+/// written whole or not at all.
 void cookFile(const CookFileOptions& options, std::ostream& out);
 
 }  // namespace rubble::demo

@@ -316,8 +316,7 @@ Key<SceneObject> anchorBody() {
       .unit = "",
       .meaning =
           "what its anchors hold to in place of the world: they go with that body, and the object starts "
-          "with "
-          "its motion",
+          "with its motion",
       .read =
           [](SceneObject& target, const Json& json, const Place& place) {
             if (!json.is_string() || json.get_ref<const std::string&>().empty())

@@ -1,7 +1,7 @@
 // A block lies on a plane that is tilted until it slides: gravity turns, which is the same.
 #include <cmath>
 
-#include "demo/cases/case_world.h"
+#include "demo/cases/block_on_ground.h"
 #include "demo/cases/cases.h"
 #include "demo/markdown_table.h"
 
@@ -9,12 +9,8 @@ namespace rubble::demo {
 namespace repose {
 namespace {
 
-const Eigen::Vector3d kSize(0.4, 0.1, 0.4);  // flat, so that it does not tip [m]
-constexpr std::size_t kElements = 32;
-constexpr double kDensity = 2400, kModulus = 30e6;  // [kg/m^3], [Pa]
-constexpr double kFriction = 0.3, kGravity = 9.81;  // [-], [m/s^2]
-constexpr double kStart = 0.26, kRate = 0.035;      // [rad], 2 degrees a second; it stands up to 0.291
-constexpr double kSlid = 0.01, kLongest = 3;        // [m], [s]
+constexpr double kStart = 0.26, kRate = 0.035;  // [rad], 2 degrees a second; it stands up to 0.291
+constexpr double kSlid = 0.01, kLongest = 3;    // [m], [s]
 
 // Gravity turns with the angle until the block, whose place along the plane is place() [m], has slid that
 // far. Returns the angle then.
@@ -24,7 +20,8 @@ double tilt(CaseWorld& world, double tick, Place&& place) {
   const double start = before;
   for (double time = 0; time < kLongest; time += tick) {
     const double angle = kStart + kRate * (time + tick);
-    world.world().setGravity(toBullet(kGravity * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0)));
+    world.world().setGravity(
+        toBullet(block::kGravity * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0)));
     world.step(tick);
     const double now = place();
     if (now - start >= kSlid) return angle - kRate * tick * (now - start - kSlid) / (now - before);
@@ -34,26 +31,12 @@ double tilt(CaseWorld& world, double tick, Place&& place) {
 }
 
 double errorOf(double angle) {
-  return std::abs(angle / slidAngle(kSlid, kFriction, kRate, kGravity) - 1);
-}
-
-void addGround(CaseWorld& world) {
-  world.add(0, std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), {0, 0, 0})
-      .setFriction(1);
+  return std::abs(angle / slidAngle(kSlid, block::kFriction, kRate, block::kGravity) - 1);
 }
 
 CaseOutcome runElements(Precision precision, double substepSafety) {
-  CaseWorld world(kGravity);
-  addGround(world);
-  DestructibleBodyDef def;
-  def.asset = cookedBox(kSize, kElements);
-  def.material.density = kDensity;
-  def.material.youngsModulus = kModulus;
-  def.material.friction = kFriction;
-  // It lies as deep as its weight presses it in: no drop at the start.
-  const double stiffness = def.material.contactStiffness * kModulus / def.asset->spacing();  // [Pa/m]
-  def.transform.setOrigin(toBullet({0, kSize.y() / 2 - kDensity * kGravity * kSize.y() / stiffness, 0}));
-  const DestructibleBody* block = world.destruct(precision, substepSafety).addBody(def);
+  CaseWorld world(block::kGravity);
+  const DestructibleBody* block = block::add(world, precision, substepSafety, {0, 0, 0});
   const auto place = [&] {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const std::vector<Eigen::Vector3d> places = placesOf(*block);
@@ -64,11 +47,8 @@ CaseOutcome runElements(Precision precision, double substepSafety) {
 }
 
 CaseOutcome runStock(double rate) {
-  CaseWorld world(kGravity);
-  addGround(world);
-  btRigidBody& block = world.add(kDensity * kSize.prod(), std::make_unique<btBoxShape>(toBullet(kSize / 2)),
-                                 {0, kSize.y() / 2, 0});
-  block.setFriction(btScalar(kFriction));
+  CaseWorld world(block::kGravity);
+  const btRigidBody& block = block::addStock(world);
   const auto place = [&] { return double(block.getWorldTransform().getOrigin().x()); };
   return world.outcome(errorOf(tilt(world, 1 / rate, place)));
 }
