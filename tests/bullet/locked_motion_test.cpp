@@ -97,7 +97,7 @@ TEST(LockedMotion, ATurnstileTurnsAboutItsAxisAndStaysWhereItIs) {
 }
 
 // A press without guides: a plate, wider than the block, that may only sink carries a load beside its middle.
-// It is one spring of k_cn = E h / 2 and swings by twice its sag of F / k_cn.
+// On one spring of k_cn = E h / 2 alone it would swing by twice its sag of F / k_cn.
 TEST(LockedMotion, APlateThatOnlySinksStaysLevel) {
   LockedWorld w;
   w.addCube({btScalar(0.4), btScalar(0.5 * kCubeSide), 0}, true, {0, 0, 0});
@@ -113,7 +113,8 @@ TEST(LockedMotion, APlateThatOnlySinksStaysLevel) {
     EXPECT_EQ(plate->getWorldTransform().getBasis(), btMatrix3x3::getIdentity()) << tick;
   }
   const double sag = 2 * kForce / (material("concrete_soft").youngsModulus * kCubeSide);
-  EXPECT_GT(lowest, kCubeSide + 0.05 - 4 * sag);  // the cube and its anchor give way, too
+  // A guard, undamped, under a light plate whose contacts are softened, on an anchor that gives way, too.
+  EXPECT_GT(lowest, kCubeSide + 0.05 - 4 * sag);
   EXPECT_LT(lowest, kCubeSide + 0.05 - 1.5 * sag);
 }
 
