@@ -12,6 +12,7 @@
 #include "demo/info.h"
 #include "demo/input_error.h"
 #include "demo/setting_choice.h"
+#include "rubble/material.h"
 
 namespace rubble::demo {
 namespace {
@@ -49,6 +50,12 @@ void parseSize(const std::string& text, int& width, int& height) {
   if (!hasCross || second.ec != std::errc() || second.ptr != end || !isSide(width) || !isSide(height)) {
     throw InputError("--size", text, "is not a size, must be WIDTHxHEIGHT with 16 to 8192 pixels each");
   }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 // An empty path means "the default" further on, so it may not be given.
@@ -122,6 +129,9 @@ void addCook(CLI::App& app, CookFileOptions& options, Raw& raw) {
       ->check(CLI::NonNegativeNumber);
   cook->add_option("--radius", options.radius,
                    "of the elements [m], default chosen; alone, as many are made as fit");
+  cook->add_option("--material", options.material,
+                   "preset that the asset keeps (" + listed(materialNames()) +
+                       "): what objects of it are made of where a scene does not say");
   cook->add_option("--scale", options.scale, "length of one unit of the mesh [m], default 1");
   cook->add_flag(
       "--repair", options.repair,

@@ -16,6 +16,7 @@
 #include "rubble/asset.h"
 #include "rubble/limits.h"
 #include "rubble/machine_error.h"
+#include "rubble/material.h"
 
 namespace rubble::demo {
 namespace {
@@ -35,6 +36,15 @@ void checkNumbers(const CookFileOptions& options) {
   if (options.elements) check("--elements", double(*options.elements), limits::kElements);
   if (options.radius) check("--radius", *options.radius, {1e-6, limits::kElementRadius.high});
   if (options.scale) check("--scale", *options.scale, kMeshScale);
+}
+
+void checkMaterial(const CookFileOptions& options) {
+  if (!options.material) return;
+  try {
+    material(*options.material);
+  } catch (const Error& error) {
+    throw InputError("--" + std::string(error.what()));
+  }
 }
 
 void checkTarget(const CookFileOptions& options) {
@@ -103,8 +113,10 @@ Asset cookSolid(const SurfaceMesh& mesh, const CookFileOptions& given) {
 void cookFile(const CookFileOptions& options, std::ostream& out) {
   base::Stopwatch clock;
   checkNumbers(options);
+  checkMaterial(options);
   checkTarget(options);
-  const Asset asset = cookSolid(meshOf(options), options);
+  Asset asset = cookSolid(meshOf(options), options);
+  asset.preset = options.material.value_or("");
   if (options.anchor && asset.anchors.empty())
     throw InputError("--anchor", options.mesh.string(),
                      "has no flat side that faces this way, must be the direction of one");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace rubble::demo {
@@ -20,6 +21,8 @@ struct CookFileOptions {
   std::optional<Eigen::Vector3d> anchor;  ///< direction of the side that is tied to the world
   /// What has its centroid in one of these is tied, too; in the mesh's coordinates, scaled [m].
   std::vector<Eigen::AlignedBox3d> anchorBoxes;
+  /// Name of the preset that the asset keeps; none: an object says itself what it is made of.
+  std::optional<std::string> material;
   std::uint64_t seed = 1;
   bool repair = false;  ///< the mesh, before it is cooked
 };

@@ -36,6 +36,7 @@ int main(int argc, char** argv) try {
   rubble::Destruction destruction(world);                                     // ours
   rubble::DestructibleBodyDef def;                                            // ours
   def.asset = std::make_shared<const rubble::Asset>(rubble::load(argv[1]));   // ours
+  def.material = def.asset->material();                                       // ours: as it was cooked
   def.transform.setOrigin({0, btScalar(-def.asset->bounds().min().y()), 0});  // ours: it stands on the ground
   destruction.addBody(def);                                                   // ours
 

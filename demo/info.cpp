@@ -57,6 +57,7 @@ void describe(const Asset& asset, std::ostream& out) {
   row(out, "elements") << asset.elementCount() << ", radius " << asset.radius << " m\n";
   row(out, "origin") << shown(asset.origin) << " m in the mesh's coordinates\n";
   row(out, "springs") << asset.springs.size() << " and " << asset.anchors.size() << " anchors\n";
+  row(out, "made of") << (asset.preset.empty() ? "no material preset" : asset.preset) << '\n';
   row(out, "volume") << asset.volume() << " m^3, spacing " << asset.spacing() << " m\n";
   row(out, "cell meshes") << asset.triangles.size() << " triangles, "
                           << (asset.uvs.empty() ? "no" : "the mesh's") << " texture coordinates\n";

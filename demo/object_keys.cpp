@@ -11,6 +11,8 @@
 #include "demo/placement_keys.h"
 #include "demo/primitives.h"
 #include "demo/solid.h"
+#include "rubble/asset.h"
+#include "rubble/error.h"
 #include "rubble/limits.h"
 
 namespace rubble::demo {
@@ -239,6 +241,33 @@ Key<SceneObject> file(std::string name, std::filesystem::path SceneObject::*memb
               }};
 }
 
+// What it was cooked for is what the object is made of, until its own keys say otherwise. A file that does
+// not load is refused when it is needed.
+void takeMaterial(SceneObject& object, const Place& place) {
+  Asset cooked;
+  try {
+    cooked = load(object.asset);
+  } catch (const Error&) {
+    return;
+  }
+  try {
+    object.material = cooked.material();
+  } catch (const Error& error) {
+    place.refuse(std::string("was cooked for a ") + error.what(), "cook it again with another --material");
+  }
+}
+
+Key<SceneObject> asset() {
+  Key<SceneObject> key = file(
+      "asset", &SceneObject::asset,
+      "cooked by `rubble cook`; keeps its elements, its anchors and the material that it was cooked for");
+  key.read = [read = key.read](SceneObject& target, const Json& json, const Place& place) {
+    read(target, json, place);
+    takeMaterial(target, place);
+  };
+  return std::move(key).only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); });
+}
+
 Key<SceneObject> shape() {
   return word<SceneObject, Shape>("shape", &SceneObject::shape,
                                   {{"box", Shape::Box},
@@ -357,8 +386,7 @@ const Table<SceneObject>& objectKeys() {
           scale(),
           flag<SceneObject>("repair", &SceneObject::repair, "mends the mesh first, as `rubble cook --repair`")
               .only("meshes", [](const SceneObject& o) { return !o.mesh.empty(); }),
-          file("asset", &SceneObject::asset, "cooked by `rubble cook`; keeps its elements and anchors")
-              .only("objects without a mesh", [](const SceneObject& o) { return o.mesh.empty(); }),
+          asset(),
           vector<SceneObject>("mesh_origin", &SceneObject::meshOrigin, kMeshPlace, "m",
                               "what in the mesh's own coordinates stands at `position`")
               .only("meshes and assets", [](const SceneObject& o) { return !isShape(o); }),

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "base/asset_check.h"
+#include "rubble/material.h"
 
 namespace rubble {
 
@@ -36,6 +37,10 @@ std::uint32_t Asset::innerMaterial() const {
 std::span<const CellFace> Asset::cellFaces(std::size_t element) const {
   const Cell& cell = cells[element];
   return std::span(faces).subspan(cell.firstFace, cell.faceCount);
+}
+
+Material Asset::material() const {
+  return preset.empty() ? Material() : rubble::material(preset);
 }
 
 void Asset::validate() const {

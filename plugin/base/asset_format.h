@@ -1,15 +1,17 @@
 // The layout of the asset file. Little-endian whatever the host.
 //
-//   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | origin 3 f64 | 12 counts
-//   u64 | the arrays
+//   magic "RUBBLEAS" | version u32 | header size u32 | checksum u64 | radius f64 | origin 3 f64 |
+//   preset 64 bytes | 12 counts u64 | the arrays
 //
 // The arrays are those of visitAssetArrays, in that order. Each starts at a multiple of 8 bytes, with zeros
 // before it if need be, and holds its records as they stand in memory on little-endian machines: read in one
-// piece, or used where the file is mapped. The last four counts are of texture coordinates, triangles with a
-// material, bytes of the materials' names (each ends with a zero) and elements with a static state, all or
-// none. The checksum covers everything behind it. The counts say how long the file must be.
+// piece, or used where the file is mapped. The preset's name is filled up with zeros. The last four counts
+// are of texture coordinates, triangles with a material, bytes of the materials' names (each ends with a
+// zero) and elements with a static state, all or none. The checksum covers everything behind it. The counts
+// say how long the file must be.
 //
-// Versions 1 to 4 are read and no longer written. They have no origin: it is zero. Versions 1 to 3 have no
+// Versions 1 to 5 are read and no longer written. They have no preset, and versions 1 to 4 no origin: it is
+// zero. Versions 1 to 3 have no
 // gaps: not between arrays, nor in anchors. Versions 1 and 2 have the first 8 counts; version 2 has a static
 // state of every element. Their checksum has one lane.
 #pragma once
@@ -21,13 +23,14 @@
 #include <string>
 #include <type_traits>
 
+#include "base/material_name.h"
 #include "rubble/asset.h"
 
 namespace rubble::base {
 
 inline constexpr std::array<char, 8> kAssetMagic = {'R', 'U', 'B', 'B', 'L', 'E', 'A', 'S'};
 inline constexpr std::uint32_t kAssetVersionWithRest = 2;  // of every element
-inline constexpr std::uint32_t kAssetVersion = 5;          // that is written
+inline constexpr std::uint32_t kAssetVersion = 6;          // that is written
 
 enum AssetArray {
   kElements,
@@ -76,21 +79,28 @@ inline constexpr std::uint64_t kAlignedAnchorBytes = 40;
 /// Where arrays may start since version 4 [bytes].
 inline constexpr std::uint64_t kAssetAlignment = 8;
 
+/// Of the preset's name in the file, one zero at least behind it.
+inline constexpr std::size_t kAssetPresetBytes = kMostPresetBytes + 1;
+
 /// What the versions differ in.
 struct AssetLayout {
   std::size_t counts;  ///< in the header
   bool isAligned;
   bool hasOrigin;
+  bool hasPreset;
 
-  std::size_t countsOffset() const { return kAssetBodyOffset + 8 + (hasOrigin ? 3 * 8 : 0); }
+  std::size_t countsOffset() const {
+    return kAssetBodyOffset + 8 + (hasOrigin ? 3 * 8 : 0) + (hasPreset ? kAssetPresetBytes : 0);
+  }
   std::size_t headerBytes() const { return countsOffset() + 8 * counts; }
 };
 /// By version, from 1 on.
-inline constexpr std::array<AssetLayout, kAssetVersion> kAssetLayouts = {{{kShapeArrays, false, false},
-                                                                          {kShapeArrays, false, false},
-                                                                          {kAssetArrays, false, false},
-                                                                          {kAssetArrays, true, false},
-                                                                          {kAssetArrays, true, true}}};
+inline constexpr std::array<AssetLayout, kAssetVersion> kAssetLayouts = {{{kShapeArrays, false, false, false},
+                                                                          {kShapeArrays, false, false, false},
+                                                                          {kAssetArrays, false, false, false},
+                                                                          {kAssetArrays, true, false, false},
+                                                                          {kAssetArrays, true, true, false},
+                                                                          {kAssetArrays, true, true, true}}};
 
 /// The largest file that is written or read [bytes]: ten million elements, the most that the cook makes, take
 /// about 28 GB. It also keeps every count below what a 32-bit index can name.

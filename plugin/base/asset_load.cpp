@@ -211,6 +211,16 @@ std::vector<std::string> splitNames(const std::filesystem::path& file, const std
   return list;
 }
 
+// Ends with a zero; nothing but zeros follow.
+std::string readPreset(const std::filesystem::path& file, BodyReader& body) {
+  std::array<char, kAssetPresetBytes> bytes{};
+  for (char& letter : bytes) body.number(letter);
+  const auto end = std::find(bytes.begin(), bytes.end(), '\0');
+  if (end == bytes.end() || std::any_of(end, bytes.end(), [](char letter) { return letter != '\0'; }))
+    refuseFile(file, "is damaged: the name of its material preset has no end");
+  return std::string(bytes.begin(), end);
+}
+
 Asset readBody(const std::filesystem::path& file, std::ifstream& stream, const Header& header) {
   Asset asset;
   if (header.hasRest()) asset.rest.emplace();
@@ -219,6 +229,7 @@ Asset readBody(const std::filesystem::path& file, std::ifstream& stream, const H
   body.number(asset.radius);
   if (header.layout.hasOrigin)
     for (double& coordinate : asset.origin) body.number(coordinate);
+  if (header.layout.hasPreset) asset.preset = readPreset(file, body);
   AssetCounts again = header.counts;
   for (std::uint64_t& count : std::span(again).first(header.layout.counts)) body.number(count);
   visitAssetArrays(asset, names, body);

@@ -18,6 +18,11 @@ void checkNames(const Asset& asset) {
       refuseAsset("materialNames[", m, "] is no name; allowed: ", kMaterialNames);
 }
 
+void checkPreset(const Asset& asset) {
+  if (asset.preset.size() > kMostPresetBytes || !isMaterialName(asset.preset))
+    refuseAsset("preset is no name; allowed: up to ", kMostPresetBytes, " bytes without control characters");
+}
+
 void checkMaterials(const Asset& asset) {
   const std::uint32_t inner = asset.innerMaterial();
   for (const Cell& cell : asset.cells)
@@ -35,6 +40,7 @@ void checkMaterials(const Asset& asset) {
 }  // namespace
 
 void checkLook(const Asset& asset) {
+  checkPreset(asset);
   checkLengthOrNone(asset.uvs.size(), asset.corners.size(), "uvs", "corner");
   checkLengthOrNone(asset.materials.size(), asset.triangles.size(), "materials", "triangle");
   for (std::size_t c = 0; c < asset.uvs.size(); ++c)

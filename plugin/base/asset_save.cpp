@@ -165,6 +165,9 @@ void save(const Asset& asset, const std::filesystem::path& file) {
   writer.startBody();
   writer.number(asset.radius);
   for (const double coordinate : asset.origin) writer.number(coordinate);
+  std::array<char, kAssetPresetBytes> preset{};
+  asset.preset.copy(preset.data(), preset.size() - 1);
+  for (const char letter : preset) writer.number(letter);
   for (const std::uint64_t count : counts) writer.number(count);
   visitAssetArrays(asset, names, writer);
   const std::uint64_t sum = writer.checksum();

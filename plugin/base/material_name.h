@@ -11,6 +11,8 @@ namespace rubble::base {
 inline constexpr std::size_t kMostMaterials = 0xfffe;
 /// Of a name [bytes]. Names are for files, messages and look-ups, where such lengths are damage.
 inline constexpr std::size_t kMostNameBytes = 255;
+/// Of a preset's name [bytes]: the file has room for 64, the last of them a zero.
+inline constexpr std::size_t kMostPresetBytes = 63;
 inline constexpr const char* kMaterialNames = "up to 255 bytes without control characters";
 
 inline bool isMaterialName(std::string_view name) {

@@ -21,6 +21,7 @@ inline Asset cubeWithEverything() {
     asset.materials.insert(asset.materials.end(), cell.outerTriangles, 1);
     asset.materials.insert(asset.materials.end(), cell.innerTriangles, 2);
   }
+  asset.preset = "brick_soft";
   asset.rest.emplace();
   asset.rest->key = 0x0123456789abcdefu;
   asset.rest->displacements.assign(asset.elementCount(), Eigen::Vector3d(0, -1e-4, -0.0));
@@ -47,6 +48,7 @@ inline std::map<std::string, std::string> assetCorpus(const std::filesystem::pat
   files["version2"] = oldBytesOf(rested);
   files["version3"] = oldBytesOf(whole);
   files["version4"] = bytesWithoutOrigin(bytes);
+  files["version5"] = bytesWithoutPreset(bytes);
 
   const auto damaged = [&bytes](std::size_t at, auto value) {
     std::string bad = bytes;
@@ -63,6 +65,7 @@ inline std::map<std::string, std::string> assetCorpus(const std::filesystem::pat
   files["damaged_version"] = damaged(kVersionAt, std::uint32_t(77));
   files["damaged_radius"] = damaged(kRadiusAt, 1e300);
   files["damaged_origin"] = damaged(kOriginAt, -1e300);
+  files["damaged_preset"] = damaged(kPresetAt + 1, std::uint8_t('x'));
   files["damaged_count"] = damaged(kCountsAt + 8 * 3, ~std::uint64_t(0) / 20);
   files["damaged_counts_swapped"] = damaged(kCountsAt + 8 * 7, std::uint64_t(2));
   files["damaged_place"] = damaged(kHeaderBytes, std::uint64_t(0x7ff8000000000000));  // NaN

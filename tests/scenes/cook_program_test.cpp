@@ -97,6 +97,24 @@ TEST_F(CookProgram, MakesAnAssetThatLoadsAndSaysWhatIsInIt) {
     EXPECT_NE(info.out.find(text), std::string::npos) << text << " in\n" << info.out;
 }
 
+// The asset keeps the preset; a scene takes it where it says nothing else, 2500 kg/m^3 of glass_soft.
+TEST_F(CookProgram, KeepsTheMaterialItWasCookedFor) {
+  m_folder.write("box.obj", kBox);
+  ASSERT_EQ(run("cook box.obj -o box.rubble-asset --elements 60 --material glass_soft").exitCode, 0);
+  EXPECT_EQ(cooked("box.rubble-asset").material().name, "glass_soft");
+  EXPECT_NE(run("info box.rubble-asset").out.find("glass_soft"), std::string::npos);
+  m_folder.write("scene.json", R"({"frames": 1, "objects": [{"asset": "box.rubble-asset"}]})");
+  const auto expectInfo = [&](const std::string& options, const std::string& words) {
+    const std::string text = run("info scene.json " + options).out;
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
+  };
+  expectInfo("", "object 0, glass_soft\n");
+  expectInfo("", "2500 kg");
+  expectInfo("--set objects.0.material.density=1000", "object 0, glass_soft\n");
+  expectInfo("--set objects.0.material.density=1000", "1000 kg");
+  expectInfo("--set objects.0.material.preset=brick_soft", "1900 kg");
+}
+
 // 800 units long; nothing is refused.
 TEST_F(CookProgram, WarnsOfAMeshThatLooksLikeMillimetres) {
   m_folder.write("long.obj",
@@ -276,6 +294,7 @@ TEST_F(CookProgram, RefusesArgumentsBeforeTheMeshIsLookedAt) {
                                 "a.off -o a.rubble-asset --anchor 0,1",
                                 "a.off -o a.rubble-asset --anchor 0,1,nan",
                                 "a.off -o a.rubble-asset --anchor ''",
+                                "a.off -o a.rubble-asset --material cheese",
                                 "a.off -o a.rubble-asset --seed -1",
                                 "a.off -o a.rubble-asset --wat"}) {
     SCOPED_TRACE(arguments);

@@ -16,6 +16,8 @@
 
 namespace rubble {
 
+struct Material;
+
 /// Marks "no element": outside of the solid, or an unused place in a list of fixed length.
 inline constexpr std::uint32_t kNoElement = 0xffffffffu;
 
@@ -112,6 +114,13 @@ struct Asset {
 
   std::optional<AssetRest> rest;  ///< none unless it was asked for
 
+  /// Name of the material preset that it was cooked for (`rubble cook --material`), empty if none. Bodies do
+  /// not read it: DestructibleBodyDef::material says what they are made of.
+  std::string preset;
+  /// That preset; without a name Material's defaults. Throws rubble::Error naming the presets if this library
+  /// knows none of that name.
+  Material material() const;
+
   std::size_t elementCount() const { return positions.size(); }
   double volume() const;  ///< of the solid [m^3]
   /// Mean element spacing h = (V / n)^(1/3) [m]; the h of the material's contact stiffness k_c = factor E h.
@@ -135,13 +144,13 @@ struct Asset {
   void validate() const;
 };
 
-/// Writes a versioned little-endian file, version 5, with sizes and a checksum. Its arrays start at multiples
+/// Writes a versioned little-endian file, version 6, with sizes and a checksum. Its arrays start at multiples
 /// of 8 bytes and are as in memory, so that it can be used where it is mapped (base/asset_format.h). The file
 /// appears whole or not at all, and nothing stays beside it.
 /// Throws rubble::Error naming the file and the reason: an asset that is not valid or would take more than 32
 /// GiB, a folder or device of that name, no permission, a full disk.
 void save(const Asset& asset, const std::filesystem::path& file);
-/// Reads such a file, or one of versions 1 to 4, and trusts nothing in it: header and length are checked
+/// Reads such a file, or one of versions 1 to 5, and trusts nothing in it: header and length are checked
 /// before the asset gets any memory, then the checksum, and the asset is validated. Throws rubble::Error
 /// naming the file and what is wrong with it.
 Asset load(const std::filesystem::path& file);

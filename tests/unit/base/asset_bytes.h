@@ -24,11 +24,13 @@ inline constexpr std::size_t kChecksumAt = 16;
 inline constexpr std::size_t kBodyAt = 24;
 inline constexpr std::size_t kRadiusAt = 24;
 inline constexpr std::size_t kOriginAt = 32;
-inline constexpr std::size_t kCountsAt = 56;
-inline constexpr std::size_t kHeaderBytes = 152;
-inline constexpr std::size_t kOldCountsAt = 32;       // of versions 1 to 4, which have no origin
-inline constexpr std::size_t kOldHeaderBytes = 96;    // of versions 1 and 2
-inline constexpr std::size_t kLookHeaderBytes = 128;  // of versions 3 and 4
+inline constexpr std::size_t kPresetAt = 56;
+inline constexpr std::size_t kCountsAt = 120;
+inline constexpr std::size_t kHeaderBytes = 216;
+inline constexpr std::size_t kOldCountsAt = 32;         // of versions 1 to 4, which have no origin
+inline constexpr std::size_t kOldHeaderBytes = 96;      // of versions 1 and 2
+inline constexpr std::size_t kLookHeaderBytes = 128;    // of versions 3 and 4
+inline constexpr std::size_t kOriginHeaderBytes = 152;  // of version 5
 
 /// Little-endian, as the hosts of these tests are.
 template <class T>
@@ -102,7 +104,7 @@ struct NumberPlace {
   NumberKind kind;
 };
 
-/// All numbers of the file's body but the counts, of a file of versions 1, 2 or 5 without look and static
+/// All numbers of the file's body but the counts, of a file of versions 1, 2 or 6 without look and static
 /// state.
 inline std::vector<NumberPlace> numberPlaces(const std::string& bytes) {
   using enum NumberKind;

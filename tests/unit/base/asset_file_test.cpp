@@ -113,7 +113,7 @@ TEST_F(AssetFile, IsRefusedWithAnyBitFlipped) {
 TEST_F(AssetFile, OfAnotherVersionIsRefusedByName) {
   std::string bytes = m_bytes;
   bytes[kVersionAt] = 77;
-  expectRefused(bytes, "has asset version 77; this library reads versions 1 to 5");
+  expectRefused(bytes, "has asset version 77; this library reads versions 1 to 6");
 }
 
 TEST_F(AssetFile, OfAnotherKindIsRefusedByName) {

@@ -1,4 +1,4 @@
-// Files of versions 1 to 4 as earlier libraries wrote them, written down a second time on purpose.
+// Files of versions 1 to 5 as earlier libraries wrote them, written down a second time on purpose.
 #pragma once
 
 #include <string>
@@ -50,7 +50,16 @@ inline std::string oldBytesOf(const Asset& asset) {
   return bytes;
 }
 
-/// A file of version 5 as version 4 had it: without the origin.
+/// A file of version 6 as version 5 had it: without the preset.
+inline std::string bytesWithoutPreset(std::string bytes) {
+  setNumber(bytes, kVersionAt, std::uint32_t(5));
+  setNumber(bytes, kHeaderSizeAt, std::uint32_t(kOriginHeaderBytes));
+  bytes.erase(kPresetAt, kCountsAt - kPresetAt);
+  seal(bytes);
+  return bytes;
+}
+
+/// The same as version 4 had it: without the origin.
 inline std::string bytesWithoutOrigin(std::string bytes) {
   setNumber(bytes, kVersionAt, std::uint32_t(4));
   setNumber(bytes, kHeaderSizeAt, std::uint32_t(kLookHeaderBytes));

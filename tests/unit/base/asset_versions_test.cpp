@@ -1,6 +1,7 @@
-// Version 4 of the asset file can be used where it is mapped; versions 1 to 3 are still read.
+// The asset file can be used where it is mapped since version 4; earlier versions are still read.
 #include <gtest/gtest.h>
 
+#include "rubble/material.h"
 #include "support/grid_asset.h"
 #include "unit/base/asset_old_bytes.h"
 #include "unit/cook/shapes.h"
@@ -43,7 +44,9 @@ class AssetVersions : public testing::Test {
   }
   void expectRead(const Asset& asset, std::uint32_t version) {
     save(asset, m_file);
-    const std::string old = version == 4 ? bytesWithoutOrigin(fileBytes(m_file)) : oldBytesOf(asset);
+    const std::string old = version == 5   ? bytesWithoutPreset(fileBytes(m_file))
+                            : version == 4 ? bytesWithoutOrigin(fileBytes(m_file))
+                                           : oldBytesOf(asset);
     ASSERT_EQ(numberAt<std::uint32_t>(old, kVersionAt), version);
     const std::string present = fileBytes(m_file);
     writeBytes(m_file, old);
@@ -67,6 +70,7 @@ TEST_F(AssetVersions, EarlierOnesHoldWhatTheyDid) {
   const Asset whole = wholeAsset();
   expectRead(whole, 3);
   expectRead(whole, 4);
+  expectRead(whole, 5);
   addRest(m_asset);
   expectRead(m_asset, 2);
 }
@@ -82,6 +86,8 @@ TEST_F(AssetVersions, OneDoesNotPassForAnother) {
   expectHas(refusalOf(m_file, bytes), "is cut off or damaged: ");
   setNumber(bytes, kVersionAt, std::uint32_t(5));
   expectHas(refusalOf(m_file, bytes), "is damaged: its header has 128 bytes; allowed: 152");
+  setNumber(bytes, kVersionAt, std::uint32_t(6));
+  expectHas(refusalOf(m_file, bytes), "is damaged: its header has 128 bytes; allowed: 216");
 }
 
 // Whoever maps the file finds the arrays as they are in memory, at addresses that suit their numbers.
@@ -89,7 +95,7 @@ TEST_F(AssetVersions, ArraysCanBeUsedWhereTheyAre) {
   const Asset asset = wholeAsset();
   save(asset, m_file);
   const std::string bytes = fileBytes(m_file);
-  EXPECT_EQ(numberAt<std::uint32_t>(bytes, kVersionAt), 5u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, kVersionAt), 6u);
   std::size_t at = kHeaderBytes;
   const auto expectArray = [&](const auto& records) {
     const std::size_t size = records.size() * sizeof(records[0]);
@@ -126,6 +132,44 @@ TEST_F(AssetVersions, OriginIsKept) {
   } catch (const Error& error) {
     expectHas(error.what(), "origin.y is -1.1e+09 m; allowed: -1e+09 to 1e+09");
   }
+}
+
+TEST_F(AssetVersions, PresetIsKept) {
+  EXPECT_EQ(m_asset.material().name, Material().name);
+  m_asset.preset = "glass_soft";
+  save(m_asset, m_file);
+  const std::string bytes = fileBytes(m_file);
+  EXPECT_EQ(bytes.compare(kPresetAt, 11, std::string("glass_soft\0", 11)), 0);
+  EXPECT_EQ(load(m_file).preset, "glass_soft");
+  EXPECT_EQ(load(m_file).material().bondWorkIndex, material("glass_soft").bondWorkIndex);
+  const std::string noEnd = "is damaged: the name of its material preset has no end";
+  for (const std::size_t at : {kPresetAt + 12, kCountsAt - 1}) {  // behind the name's end
+    std::string bad = bytes;
+    bad[at] = 'x';
+    expectHas(refusalOf(m_file, bad), noEnd);
+  }
+  std::string endless = bytes;
+  std::fill_n(endless.begin() + kPresetAt, kCountsAt - kPresetAt, 'x');
+  expectHas(refusalOf(m_file, endless), noEnd);
+  endless = bytes;
+  endless[kPresetAt] = '\n';
+  expectHas(refusalOf(m_file, endless), "preset is no name; allowed: up to 63 bytes");
+}
+
+// One of a library with more presets loads, and says so when it is asked for.
+TEST_F(AssetVersions, UnknownPresetIsNamedWhereItIsUsed) {
+  m_asset.preset = std::string(63, 'p');
+  save(m_asset, m_file);
+  const Asset asset = load(m_file);
+  EXPECT_EQ(asset.preset, m_asset.preset);
+  try {
+    asset.material();
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    expectHas(error.what(), "must be one of concrete_soft");
+  }
+  m_asset.preset += 'p';
+  EXPECT_THROW(save(m_asset, m_file), Error);
 }
 
 // What version 4 held of a cube at geo-coordinates: corners on planes half a metre apart. A cube of 1 m about
