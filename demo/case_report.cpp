@@ -182,7 +182,8 @@ std::string caseReportHash(const CaseReportOptions& options, std::span<const Sol
   for (const ReportCase* c : casesOf(options)) {
     for (const std::string& text : {c->name, c->what, c->closedForm, c->error}) add(text + "\n");
     if (!c->note.empty()) add(c->note + "\n");
-    for (const CaseRun* run : runsOf(*c, options)) add(run->method + "\n" + run->setting + "\n");
+    for (const CaseRun* run : runsOf(*c, options))  // a table without a peer is as true as one with it
+      if (!run->isForeign) add(run->method + "\n" + run->setting + "\n");
     if (c->reference) add(referenceHash(*c->reference, versions));
   }
   for (const SolverVersion& version : versions) hash.add(version.world);

@@ -38,6 +38,7 @@ struct CaseRun {
   double seconds = 1;                  ///< about how long it takes, for the time left
   std::vector<Override> changes = {};  ///< that the setting makes to the case's scene, where it has one
   bool namedOnly = false;              ///< not in `--all`: in reports that name its case
+  bool isForeign = false;              ///< of a program that is not installed everywhere
 };
 
 struct ReportCase {

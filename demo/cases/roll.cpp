@@ -1,9 +1,11 @@
 // A ball of Bullet's rolls down a slab of elements, from rest. Gravity is tilted and the slab is level, so
 // that it is cooked along its axes.
 #include <cmath>
+#include <sstream>
 
 #include "demo/cases/case_world.h"
 #include "demo/cases/cases.h"
+#include "demo/cases/lammps.h"
 #include "demo/markdown_table.h"
 
 namespace rubble::demo {
@@ -34,11 +36,13 @@ btRigidBody& addBall(CaseWorld& world, double depth) {
   return ball;
 }
 
+double errorOf(double way) {
+  return std::abs(way / (rollingAcceleration(kGravity, kSlope) * kSimulated * kSimulated / 2) - 1);
+}
+
 CaseOutcome outcomeOf(CaseWorld& world, const btRigidBody& ball, double tick) {
   for (int t = 0; t < int(std::lround(kSimulated / tick)); ++t) world.step(tick);
-  const double way = double(ball.getWorldTransform().getOrigin().x()) - kStart;
-  const double expected = rollingAcceleration(kGravity, kSlope) * kSimulated * kSimulated / 2;
-  return world.outcome(std::abs(way / expected - 1));
+  return world.outcome(errorOf(double(ball.getWorldTransform().getOrigin().x()) - kStart));
 }
 
 struct SlabRun {
@@ -72,6 +76,21 @@ CaseOutcome runStock(double rate) {
   world.add(0, std::make_unique<btBoxShape>(toBullet(kSize / 2)), {0, 0, 0});
   const btRigidBody& ball = addBall(world, 0);
   return outcomeOf(world, ball, 1 / rate);
+}
+
+// On a wall as stiff as an element of the slab, critically damped.
+CaseOutcome runLammpsBall(double timestep) {
+  const double stiffness =
+      Material().contactStiffness * kModulus * std::cbrt(kSize.prod() / double(kElements));  // [N/m]
+  const double depth = mass() * kGravity * std::cos(kSlope) / stiffness;
+  const LammpsSphere ball{
+      kStart, kRadius - depth, kRadius, kDensity, stiffness, 2 * std::sqrt(stiffness / mass()), true};
+  std::ostringstream fall;
+  fall << "fix fall all gravity " << kGravity << " vector " << std::sin(kSlope) << ' ' << -std::cos(kSlope)
+       << " 0\n";
+  const LammpsResult result =
+      runLammps({lammpsScript(ball) + fall.str(), {"xcm(all,x)"}, timestep, kSimulated});
+  return {errorOf(result.values[0] - kStart), result.processorSeconds, kSimulated};
 }
 
 }  // namespace
@@ -108,6 +127,8 @@ ReportCase rollCase() {
   for (const double rate : {60.0, 240.0, 1000.0})
     c.runs.push_back(
         {"Bullet's rigid slab", rounded(rate) + " Hz", false, true, [=] { return runStock(rate); }});
+  for (const CaseRun& run : lammpsRuns("LAMMPS, its wall as stiff", {1e-3, 1e-4, 1e-5}, runLammpsBall))
+    c.runs.push_back(run);
   return c;
 }
 

@@ -10,8 +10,10 @@
 #include <set>
 
 #include "demo/cases/cases.h"
+#include "demo/cases/lammps.h"
 #include "demo/error_plot.h"
 #include "demo/input_error.h"
+#include "rubble/machine_error.h"
 #include "scenes/parsed.h"
 #include "scenes/xml.h"
 
@@ -368,6 +370,37 @@ TEST(BarCases, TheElementsKeepTheClosedForms) {
   }
 }
 
+// As LAMMPS of 29 Sep 2021 writes them, in parts.
+TEST(Lammps, ItsLogIsRead) {
+  const std::string log =
+      "LAMMPS (29 Sep 2021 - Update 2)\nLoop time of 0.25 on 1 procs for 5000 steps with 1 atoms\n"
+      "print \"answer $(v_v0:%.17g)\"\nanswer 0.5 -3e-2\nTotal wall time: 0:00:00\n";
+  const demo::LammpsResult result = demo::readLammpsLog(log, 2);
+  EXPECT_EQ(result.values, (std::vector<double>{0.5, -0.03}));
+  EXPECT_EQ(result.processorSeconds, 0.25);
+  EXPECT_THROW(demo::readLammpsLog(log, 3), MachineError);
+  try {
+    demo::readLammpsLog("ERROR: Unrecognized pair style 'gran/hooke' (src/force.cpp:257)\n", 1);
+    ADD_FAILURE();
+  } catch (const MachineError& error) {
+    EXPECT_STREQ(error.what(), "LAMMPS: ERROR: Unrecognized pair style 'gran/hooke' (src/force.cpp:257)");
+  }
+}
+
+// It integrates the closed forms themselves: its errors are those of its timestep, 2500 of which a contact
+// takes.
+TEST(Lammps, ItsSphereKeepsTheClosedForms) {
+  if (!demo::hasLammps()) GTEST_SKIP() << "LAMMPS is not installed";
+  int tried = 0;
+  for (const demo::ReportCase& c : {demo::bounceCase(), demo::rollCase()})
+    for (const demo::CaseRun& run : c.runs) {
+      if (!run.isForeign || run.setting != "timestep 1e-05 s") continue;
+      EXPECT_LT(run.run().error, 1e-3) << c.name << ", " << run.method;
+      ++tried;
+    }
+  EXPECT_EQ(tried, 3);
+}
+
 // Restitution as in tests/physics/restitution_test.cpp, e^2 to 0.01 + 0.02 e^2: at 0.5 to 0.015. Of the
 // contact time one substep may be lost, 0.35 of the pi / omega (plugin/edem/step_length.cpp).
 TEST(BounceCase, TheElementsKeepTheClosedForms) {
@@ -377,7 +410,7 @@ TEST(BounceCase, TheElementsKeepTheClosedForms) {
     EXPECT_LT(run.run().error, run.method.starts_with("restitution") ? 0.015 : 0.35 / 3.14159) << run.method;
     ++tried;
   }
-  EXPECT_EQ(tried, 2);
+  EXPECT_EQ(tried, 4);  // block and sphere
 }
 
 }  // namespace
