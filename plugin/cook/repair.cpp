@@ -10,6 +10,7 @@
 #include "cook/mend_surface.h"
 #include "cook/soup.h"
 #include "cook/spare_triangles.h"
+#include "cook/surface_check.h"
 #include "cook/surface_look.h"
 #include "cook/surface_sides.h"
 #include "cook/weld.h"
@@ -181,10 +182,10 @@ void tellHoles(const Mended& mended, bool hasLook, RepairedMesh& repaired) {
     repaired.left.push_back(tell("left open ", mended.holes.tooLarge) + "; too large to be closed by guess");
 }
 
-// What the check of `cook` says of it; empty where it has nothing to say.
+// What the checks of `cook` say of it; empty where they have nothing to say.
 std::string faultOf(const SurfaceMesh& mesh) {
   try {
-    checkMesh(mesh);
+    checkSurface(checkMesh(mesh));
   } catch (const Error& error) {
     return error.what();
   }

@@ -32,7 +32,7 @@ struct RepairedMesh {
   std::vector<std::string> done;
   /// What was found and is as it was: holes that are too large, places where it passes through itself.
   std::vector<std::string> left;
-  /// What `cook` will refuse `mesh` for, in its words. Empty: nothing that its check of the mesh sees.
+  /// What `cook` will refuse `mesh` for, in its words. Empty: nothing that its checks of the surface see.
   std::string fault;
 };
 

@@ -305,6 +305,7 @@ TEST(Repair, TellsOfAPartThatPassesThroughItself) {
   const RepairedMesh repaired = repair(mesh);
   ASSERT_EQ(repaired.left.size(), 1u);
   EXPECT_EQ(repaired.left[0].find("passes through itself: "), 0u) << repaired.left[0];
+  expectLeft(mesh, "mesh: passes through itself: ");
 }
 
 TEST(Repair, RefusesWhatIsNoSurface) {
