@@ -148,11 +148,10 @@ TextRows sizeCsv(std::span<const SizeRun> runs) {
 }
 
 std::string sizeSvg(std::span<const SizeRun> runs) {
-  constexpr double kBallSpeed = 10, kWallMass = 192;  // of the scene [m/s], [kg]
   ErrorPlot plot{.title = "What a blow leaves of the scene wall, by the size of its elements",
                  .timeAxis = "h [mm], cube root of an element's volume",
                  .errorAxis = "share",
-                 .lines = {{"exit speed / 10 m/s", {}}, {"crushed / 192 kg, the wall", {}}},
+                 .lines = {{"exit speed / striking speed", {}}, {"crushed / mass of the wall", {}}},
                  .notes = {"Means of the packings of each size.",
                            "On " + machineName() + ", commit " + commitName() + "."}};
   plot.ring.clear();
@@ -160,8 +159,8 @@ std::string sizeSvg(std::span<const SizeRun> runs) {
     double h = 0, speed = 0, crushed = 0;
     for (const SizeRun& run : size) {
       h += 1e3 * run.spacing / double(size.size());
-      speed += run.exitSpeed / kBallSpeed / double(size.size());
-      crushed += run.crushed / kWallMass / double(size.size());
+      speed += run.exitSpeed / run.strikingSpeed / double(size.size());
+      crushed += run.crushed / run.mass / double(size.size());
     }
     if (speed > 0) plot.lines[0].points.push_back({h, speed});
     if (crushed > 0) plot.lines[1].points.push_back({h, crushed});

@@ -42,6 +42,8 @@ struct SizeRun {
   double crushed = 0;           ///< [kg]
   double dust = 0;              ///< [kg]
   double exitSpeed = 0;         ///< [m/s]
+  double strikingSpeed = 0;     ///< of what it is the exit speed of [m/s]
+  double mass = 0;              ///< of the wall before [kg]
   double largest = 0;           ///< share of the wall's mass that is in its largest fragment
   double light = 0, heavy = 0;  ///< fragments above kLightFragment and kHeavyFragment
   double milliseconds = 0;      ///< of one core per simulated second

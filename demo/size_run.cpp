@@ -45,6 +45,7 @@ void countFragments(SizeRun& run, const DestructibleBody& body) {
     run.heavy += mass > kHeavyFragment ? 1 : 0;
   }
   run.largest = largest / whole;
+  run.mass = whole;
 }
 
 }  // namespace
@@ -86,6 +87,7 @@ SizeRun runSized(std::uint32_t elements, std::uint64_t seed, const std::function
   const Ledger& ledger = world.destruction().ledger();
   run.dust = ledger.massDustEmitted;
   run.crushed = ledger.massDebris + ledger.massRemoved + ledger.massDustEmitted;
+  run.strikingSpeed = scene.impactors.front().velocity.norm();
   run.exitSpeed = exitSpeed.value().value_or(0);
   run.milliseconds = 1e3 * seconds / (scene.frames / scene.fps);
   countFragments(run, wall);
