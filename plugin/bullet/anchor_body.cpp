@@ -134,6 +134,7 @@ namespace rubble {
 RUBBLE_ABI_BEGIN
 
 void Destruction::Impl::setAnchorBody(DestructibleBody& body, btRigidBody* base, const edem::Twist& motion) {
+  energyBalance.beginAnew();
   DestructibleBody::Impl& own = body.impl();
   own.anchorBody = {};
   if (base) own.anchorBody = bullet::anchorTo(*base, solver->heldFrame(own.id));

@@ -30,6 +30,8 @@ class EnergyAlarm {
   /// The most that came from one body out of nothing, up to now [J]; and how many bodies were told of.
   double made() const { return m_made; }
   std::uint32_t told() const { return m_told; }
+  /// The most kinetic energy of a rigid body that touched [J].
+  double largestKinetic() const { return m_largestKinetic; }
 
   /// Share of the most energy that was in the world, rigid bodies that touch included.
   static constexpr double kTolerance = 0.05;

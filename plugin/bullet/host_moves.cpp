@@ -53,6 +53,7 @@ void Destruction::Impl::takeHostMoves(double dt) {
     body->activate(true);
     solver->setAsleep(own.id, false);
     if (moved) {
+      energyBalance.beginAnew();
       solver->move(own.id, wayFrom(own.shownPlace, place));
       if (own.anchorBody.body) bullet::holdAnew(own.anchorBody, solver->heldFrame(own.id));
       own.shape->follow();

@@ -170,6 +170,7 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   const Eigen::Vector3d angular =
       turn * (toEigen(own.whole.inertia).asDiagonal() * (turn.transpose() * spin)) -
       arm.cross(own.whole.mass * toEigen(velocity));
+  energyBalance.beginAnew();
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
   own.state = DestructibleBody::Impl::State::Thawing;
   own.shown = {};

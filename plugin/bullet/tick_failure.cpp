@@ -1,6 +1,8 @@
 // What ends the simulation, and how that is told.
 #include <algorithm>
 #include <cstdio>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "bullet/body_impl.h"
@@ -23,15 +25,55 @@ void Destruction::Impl::judgeDamping() {
   // The ledger is of the instant of the last forces: in a first tick of one substep nothing had moved yet,
   // and rounding is all the energy there is.
   if (bodies.empty() || ticks == 0 || !(made > kRunaway * most)) return;
-  const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
-    return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
-  };
   char text[240];
   std::snprintf(text, sizeof text,
                 "what should take energy from the elements, of which its are the fastest, made %.3g J of the "
                 "%.3g J in the world; lower substepSafety, or raise the material's restitution",
                 made, most);
-  fail(**std::max_element(bodies.begin(), bodies.end(), slower), text);
+  fail(fastest(), text);
+}
+
+const DestructibleBody& Destruction::Impl::fastest() const {
+  const auto slower = [&](const DestructibleBody* a, const DestructibleBody* b) {
+    return solver->maxSpeed(a->id()) < solver->maxSpeed(b->id());
+  };
+  return **std::max_element(bodies.begin(), bodies.end(), slower);
+}
+
+// Bullet's places, and those that elements are told in, are floats: what they are wrong by, on both sides of
+// a contact, in weights. And what counts as still may move.
+double Destruction::Impl::roundedEnergy() const {
+  const edem::Books& books = solver->books();
+  double extent = books.centre.norm() + books.diagonal;
+  for (const edem::RigidProxy& proxy : proxies)
+    extent = std::max(extent, proxy.position.norm() + proxy.reach());
+  const double wrong = 8 * double(std::numeric_limits<float>::epsilon()) * extent;
+  return books.initialMass * (double(world.getGravity().length()) * wrong + 0.5 * kQuietSpeed * kQuietSpeed);
+}
+
+void Destruction::Impl::judgeBalance() {
+  if (bodies.empty() || solver->report().substeps == 0) return;
+  energyBalance.noteShapes(proxies);
+  const std::optional<double> held =
+      energyBalance.beyond(solver->books(), energyAlarm.largestKinetic(), roundedEnergy());
+  if (!held) return;
+  const DestructibleBody& body = fastest();
+  const std::span<const std::uint8_t> alive = solver->view(body.id()).alive;
+  const auto speed = [&](std::size_t i) {
+    return alive[i] ? solver->velocity(body.id(), i).squaredNorm() : -1.0;
+  };
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < alive.size(); ++i)
+    if (speed(i) > speed(first)) first = i;
+  char text[500];
+  std::snprintf(
+      text, sizeof text,
+      "its elements, the fastest of which is %zu, and those of other bodies hold %.3g J where "
+      "no more than %.3g J were ever put in: contacts make energy that are pressed too deep, or met "
+      "too fast, for a substep of %.3g s; lower substepSafety, or raise maxSubstepsPerFrame, "
+      "contactStiffness or the size of the elements",
+      first, *held, energyBalance.most(), solver->report().substep);
+  fail(body, text);
 }
 
 // The first failure counts.

@@ -119,6 +119,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
     bullet::beElements(*body);
     showElements(*body);
   }
+  if (bodyDef.model.contactBesideSpring) energyBalance.beginAnew();  // they may press from the start
   world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
   world.addConstraint(body->impl().coupler.get());
   bodies.push_back(body);
@@ -164,6 +165,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   gone.angular = after.leftAngular - before.leftAngular + after.centre.cross(gone.linear);
   gone.kinetic = after.leftKinetic - before.leftKinetic + after.leftElastic - before.leftElastic;
   ledgerBook.addRemoved(gone);
+  energyBalance.beginAnew();
   body.impl().world = nullptr;
 }
 
@@ -362,6 +364,7 @@ void Destruction::Impl::closeLedger(double dt) {
   if (def.log)
     for (const std::string& line : lines) def.log(LogLevel::Warning, line);
   judgeDamping();
+  judgeBalance();
 }
 
 // Bullet has put islands to sleep, or woken them.

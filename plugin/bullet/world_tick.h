@@ -8,6 +8,7 @@
 #include "bullet/debris_surroundings.h"
 #include "bullet/element_algorithm.h"
 #include "bullet/energy_alarm.h"
+#include "bullet/energy_balance.h"
 #include "bullet/joints.h"
 #include "bullet/ledger_book.h"
 #include "bullet/rigid_proxies.h"
@@ -95,6 +96,7 @@ struct Destruction::Impl {
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
+  bullet::EnergyBalance energyBalance;
 
  private:
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
@@ -143,6 +145,10 @@ struct Destruction::Impl {
   void closeLedger(double dt);
   /// Ends the simulation when what should take energy makes more than was put in.
   void judgeDamping();
+  /// Or when elements hold more than was put in, whatever made it.
+  void judgeBalance();
+  double roundedEnergy() const;  ///< [J]
+  const DestructibleBody& fastest() const;
   void fail(const DestructibleBody& body, const std::string& what);
   std::string whenText() const;  ///< of a failure: which tick
   void stepDebris(double dt);

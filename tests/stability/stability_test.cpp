@@ -23,6 +23,9 @@ INSTANTIATE_TEST_SUITE_P(OnceBroken, Stability, testing::Values(57, 399, 86, 158
 
 // Beyond the 500 of the table: what falls from rest by many radii in a tick is followed.
 INSTANTIATE_TEST_SUITE_P(Falls, Stability, testing::Values(901, 1087));
+// Elements that are pressed so deep into the ground, or came so far into it in a substep, that their contacts
+// make energy: the run stops and says so.
+INSTANTIATE_TEST_SUITE_P(Makes, Stability, testing::Values(569, 891, 1146, 1151));
 
 // Cases that once stopped: elements too heavy to become debris, a light body that was not softened with the
 // others, a softness between what was tried and what is allowed, elements that have to be frozen, rounding
