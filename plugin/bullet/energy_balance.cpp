@@ -37,12 +37,20 @@ class SurfaceSum {
 
 }  // namespace
 
+// What is not near any more may come back with another surface: a first contact at depth gives no kick.
 void EnergyBalance::noteShapes(std::span<const edem::RigidProxy> proxies) {
+  m_known.swap(m_shapes);
+  m_shapes.clear();
   for (const edem::RigidProxy& proxy : proxies) {
     SurfaceSum sum;
     for (const edem::Collider& part : proxy.parts) sum.add(part);
-    const auto [known, isNew] = m_shapes.try_emplace(proxy.key, sum.value());
-    if (!isNew && std::exchange(known->second, sum.value()) != sum.value()) m_anew = true;
+    m_shapes.push_back({proxy.key, sum.value()});
+  }
+  std::ranges::sort(m_shapes, {}, &Surface::key);
+  for (auto known = m_known.begin(); const Surface& surface : m_shapes) {
+    while (known != m_known.end() && known->key < surface.key) ++known;
+    if (known == m_known.end()) break;
+    if (known->key == surface.key && known->sum != surface.sum) m_anew = true;
   }
 }
 

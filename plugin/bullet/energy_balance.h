@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
+#include <vector>
 
 #include "edem/books.h"
 #include "edem/rigid_proxy.h"
@@ -37,8 +37,10 @@ class EnergyBalance {
   double m_most = 0;      // [J]
   double m_rounding = 0;  // the most of it [J]
   bool m_anew = false;
-  std::unordered_map<std::uint64_t, std::uint64_t>
-      m_shapes;  // sums of surfaces by RigidProxy::key; looked up only
+  struct Surface {
+    std::uint64_t key, sum;  // RigidProxy::key; of its parts
+  };
+  std::vector<Surface> m_shapes, m_known;  // by key, of the last tick and the one before
 };
 
 RUBBLE_ABI_END
