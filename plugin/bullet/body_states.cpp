@@ -37,7 +37,7 @@ void beElements(DestructibleBody& body) {
   const btVector3 none(0, 0, 0);
   showInBullet(body, body.getWorldTransform(), none, none);
   body.clearForces();
-  body.setGravity(none);
+  body.setGravity(body.impl().settings.gravity);
   // Of what the application does to it; the elements take that from there.
   body.setLinearFactor(body.impl().settings.linearFactor);
   body.setAngularFactor(body.impl().settings.angularFactor);
@@ -67,6 +67,7 @@ void beNewRigid(DestructibleBody& body, const btTransform& at) {
   body.setLinearFactor({0, 0, 0});
   body.setAngularFactor({0, 0, 0});
   body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
+  body.setGravity(noGravity());
 }
 
 RUBBLE_ABI_END

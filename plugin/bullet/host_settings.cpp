@@ -1,22 +1,34 @@
 #include "bullet/host_settings.h"
 
+#include <cmath>
+
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
-HostSettings settingsOf(const btRigidBody& body) {
+std::optional<btVector3> ownGravity(const btRigidBody& body, const btVector3& world) {
+  const btVector3& given = body.getGravity();
+  const bool isOurs =
+      given.isZero() && std::signbit(given.x()) && std::signbit(given.y()) && std::signbit(given.z());
+  const bool isWorlds = !(body.getFlags() & BT_DISABLE_WORLD_GRAVITY) && given == world;
+  return isOurs || isWorlds ? std::nullopt : std::optional(given);
+}
+
+HostSettings settingsOf(const btRigidBody& body, const btVector3& world) {
   return {body.getLinearFactor(),
           body.getAngularFactor(),
-          body.getGravity(),
+          ownGravity(body, world).value_or(noGravity()),
           body.getFlags(),
           body.getContactProcessingThreshold(),
           body.getActivationState() == DISABLE_DEACTIVATION};
 }
 
-void restore(btRigidBody& body, const HostSettings& settings, const btVector3& gravity) {
+void restore(btRigidBody& body, const HostSettings& settings, const btVector3& world) {
+  const std::optional<btVector3> own = ownGravity(body, world);
+  const bool isOff = settings.flags & BT_DISABLE_WORLD_GRAVITY;
   body.setLinearFactor(settings.linearFactor);
   body.setAngularFactor(settings.angularFactor);
   body.setFlags(settings.flags);
-  body.setGravity(settings.flags & BT_DISABLE_WORLD_GRAVITY ? settings.gravity : gravity);
+  body.setGravity(own ? *own : isOff ? noGravity() : world);
   body.setContactProcessingThreshold(settings.threshold);
   body.forceActivationState(settings.staysAwake ? DISABLE_DEACTIVATION : ACTIVE_TAG);
   body.setDeactivationTime(0);

@@ -159,8 +159,9 @@ void Destruction::Impl::thawStruck(double dt) {
 void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   DestructibleBody::Impl& own = body.impl();
   placeWhole(body);
+  const std::optional<btVector3> gravity = takeGravity(body);
   const btVector3 velocity =
-      body.getLinearVelocity() + forcedVelocity(body, world.getGravity(), btScalar(dt));
+      body.getLinearVelocity() + forcedVelocity(body, gravity.value_or(world.getGravity()), btScalar(dt));
   const Eigen::Matrix3d turn = toEigen(body.getWorldTransform()).linear();
   const Eigen::Vector3d spin =
       toEigen(body.getAngularVelocity()) +
@@ -212,7 +213,7 @@ void Destruction::Impl::finishThaws() {
     if (own.state != DestructibleBody::Impl::State::Thawing) continue;
     own.state = DestructibleBody::Impl::State::Elements;
     body->setCollisionFlags(own.flags);
-    own.settings = bullet::settingsOf(*body);
+    own.settings = bullet::settingsOf(*body, world.getGravity());
     bullet::beElements(*body);
     cleanPairs(*body);
     world.updateSingleAabb(body);

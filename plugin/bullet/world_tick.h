@@ -127,6 +127,7 @@ struct Destruction::Impl {
   void failSpoiled();
   /// Takes what the application has set of bodies that their elements move, and shows it what they do.
   void takeHostMoves(double dt);
+  std::optional<btVector3> takeGravity(DestructibleBody& body);
   void showElements();
   void showElements(DestructibleBody& body);
   btTransform placeOfShown(DestructibleBody& body, const edem::RigidMotion& motion) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "edem/anchor_base.h"
@@ -67,6 +68,8 @@ struct BodyState {
   std::vector<Vec3<Real>> parkedAt;
   std::vector<Quat<Real>> parkedTurn;
   std::vector<HostLoad> hostLoads;  ///< until the tick ends
+  /// Its own in place of the world's [m/s^2].
+  std::optional<Eigen::Vector3d> gravity;
   /// The same in every substep, until another spring breaks: while the host lets it bend to a load [1/s].
   double easeDamping = 0;
   std::uint32_t easeBroken = 0;  ///< brokenCount when that began

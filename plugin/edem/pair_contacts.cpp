@@ -14,7 +14,7 @@ constexpr std::size_t kNoRest = ~std::size_t(0);
 template <class Real>
 LoadedThing thingOf(const Body<Real>& body, std::uint32_t i, const RestingLoads& resting) {
   return {fragmentName(body.id, body.state.fragment[i]), body.work.motions[body.work.motionOf[i]].inverseMass,
-          resting.gravity()};
+          body.state.gravity.value_or(resting.gravity())};
 }
 
 // One touching pair. Loads on the second element.

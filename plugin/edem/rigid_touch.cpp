@@ -21,9 +21,10 @@ Parting partingOf(const Body<Real>& body, std::uint32_t i, const Eigen::Vector3d
                   const TouchWork& work) {
   const RigidProxy& proxy = side.proxy;
   const FragmentMotion& fragment = body.work.motions[body.work.motionOf[i]];
-  const std::size_t resting = work.resting.pairOf(
-      {rigidName(side.state.key), proxy.inverseMass, proxy.acceleration},
-      {fragmentName(body.id, body.state.fragment[i]), fragment.inverseMass, work.resting.gravity()});
+  const std::size_t resting =
+      work.resting.pairOf({rigidName(side.state.key), proxy.inverseMass, proxy.acceleration},
+                          {fragmentName(body.id, body.state.fragment[i]), fragment.inverseMass,
+                           body.state.gravity.value_or(work.resting.gravity())});
   return {
       fragment.velocityAt(x) - proxy.velocity - proxy.spin.cross(x - proxy.position),
       fragment.spin - proxy.spin,

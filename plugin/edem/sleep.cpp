@@ -177,10 +177,16 @@ void settle(World<Real>& w, double dt) {
     }
     if (any) dampDeformation(body, std::span<const double>(rates), dt, w.books);
   }
-  if (!(def.settleSpeed > 0) || !(w.gravity.norm() * def.settleTime > def.settleSpeed)) return;
+  if (!(def.settleSpeed > 0)) return;
+  // What does not fall is borne by nothing.
+  const auto mayRest = [&](const Body<Real>& body) {
+    const double fall = body.state.gravity.value_or(w.gravity).norm();
+    return !body.state.asleep && fall * def.settleTime > def.settleSpeed;
+  };
+  if (!std::ranges::any_of(w.bodies, [&](const auto& body) { return mayRest(*body); })) return;
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.state.asleep) continue;
+    if (!mayRest(body)) continue;
     followSwings(body);
     for (const std::uint32_t i : body.work.awake) {
       if (!body.state.alive[i]) continue;
@@ -194,7 +200,7 @@ void settle(World<Real>& w, double dt) {
   const double share = -std::expm1(-def.brakeRate * dt);
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
-    if (body.state.asleep) continue;
+    if (!mayRest(body)) continue;
     for (const std::uint32_t i : body.work.awake)
       if (body.state.alive[i] && slow[b][body.state.fragment[i]]) brake(body, i, share, w.books);
   }

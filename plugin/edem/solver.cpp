@@ -169,6 +169,17 @@ class SolverOf final : public Solver {
     body.state.hostLoads.insert(body.state.hostLoads.end(), loads.begin(), loads.end());
   }
 
+  bool setGravity(std::uint32_t id, const std::optional<Eigen::Vector3d>& gravity) override {
+    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    if (body.state.gravity == gravity) return false;
+    body.state.gravity = gravity;
+    if (body.state.parked) return true;
+    setAsleep(id, false);
+    forgetSleep(body);
+    m_world.listsStale = true;
+    return true;
+  }
+
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
     Body<Real>& body = *m_world.bodies[placeOf(id)];

@@ -104,6 +104,9 @@ class Solver {
   virtual void ride(std::uint32_t id, std::uint64_t key, const Frame& hold, const Frame& now) = 0;
   /// Presses elements of a body all through its next tick. Booked as the host's; wakes nothing.
   virtual void load(std::uint32_t id, std::span<const HostLoad> loads) = 0;
+  /// Gravity of a body's own in place of the world's, or that again [m/s^2]. Returns whether that changes it;
+  /// then it wakes.
+  virtual bool setGravity(std::uint32_t id, const std::optional<Eigen::Vector3d>& gravity) = 0;
   /// Lets a body bend to what rests on it without a swing: damps its deformation at this rate in
   /// every substep until another spring of it breaks [1/s]; 0: no more.
   virtual void setEasing(std::uint32_t id, double rate) = 0;

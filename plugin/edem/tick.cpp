@@ -128,8 +128,9 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
         w.books.mass += body.state.alive[i] ? body.constants->mass[i] : 0;
       continue;
     }
+    const Eigen::Vector3d fall = body.state.gravity.value_or(gravity);
     const Real moved2 =
-        integrate(body, kick, step, gravity, std::span<const Vec3<double>>(w.lists.grid(b).listed),
+        integrate(body, kick, step, fall, std::span<const Vec3<double>>(w.lists.grid(b).listed),
                   w.drifts.bodies[b].moved, w.books);
     bookHostLoads(body, kick, w.books);
     if (!std::isfinite(moved2))
@@ -139,7 +140,7 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
           " of its tick; lower substepSafety, or look for units other than metres, seconds, kilograms";
     if (body.state.easeDamping > 0 && body.state.brokenCount == body.state.easeBroken)
       dampDeformation(body, body.state.easeDamping, kick, w.books);
-    moveMotions(body, kick, step, gravity);
+    moveMotions(body, kick, step, fall);
     w.listsStale = w.listsStale || !(moved2 <= Real(0.25 * w.lists.skin() * w.lists.skin()));
   }
   for (auto& body : w.bodies)

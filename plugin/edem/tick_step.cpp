@@ -90,7 +90,10 @@ double longestStep(World<Real>& w, double dt) {
       kTravelShare * std::min(pass, travels ? radius / speed : std::numeric_limits<double>::infinity());
   // A drift is that of the instant: what falls leaves it, and would be deep in what it meets by the next
   // step.
-  const double way = kTravelShare * radius, fall = w.gravity.norm();
+  const double way = kTravelShare * radius;
+  double fall = w.gravity.norm();
+  for (const auto& body : w.bodies)
+    if (body->state.gravity) fall = std::max(fall, body->state.gravity->norm());
   const double falls = fall > 0 ? 2 * way / (speed + std::sqrt(speed * speed + 4 * fall * way))
                                 : std::numeric_limits<double>::infinity();
   char text[200];

@@ -122,6 +122,36 @@ TEST(HostMoves, ItsOwnGravityIsInsteadOfTheWorlds) {
   EXPECT_NEAR(w.velocity().y() - before, 1.5 * 48 / 240, 2e-3);
 }
 
+// Zero is a gravity, too, and the world's comes back with it.
+TEST(HostMoves, WithoutGravityOfItsOwnItFloats) {
+  FreeBlock w({0, btScalar(-9.81), 0});
+  const double before = w.velocity().y();
+  w.block->setGravity({0, 0, 0});
+  w.step(48);
+  EXPECT_NEAR(w.velocity().y(), before, 1e-5);
+  w.block->setGravity(w.world.getGravity());
+  w.step(48);
+  EXPECT_NEAR(w.velocity().y() - before, -9.81 * 48 / 240, 2e-3);
+  w.expectWhole();
+}
+
+// The moon's. What rests on springs holds the square of its weight in them.
+TEST(HostMoves, UnderGravityOfItsOwnItRestsAndSleeps) {
+  constexpr double kMoon = 1.62, kEarth = 9.81;
+  FreeBlock w({0, btScalar(-kEarth), 0});
+  w.putDown();
+  const auto elasticUnder = [&w](double gravity) {
+    w.block->setGravity({0, btScalar(-gravity), 0});
+    w.step(2 * 240);
+    EXPECT_TRUE(w.block->isAsleep()) << gravity;
+    return w.destruction->ledger().elastic;
+  };
+  const double moon = elasticUnder(kMoon);
+  EXPECT_NEAR(elasticUnder(kEarth) / moon, kEarth * kEarth / kMoon / kMoon, 1);
+  EXPECT_NEAR(elasticUnder(kMoon) / moon, 1, 0.03);
+  EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+}
+
 // A place far away, and a quarter turn about y while it flies along x: it then flies along -z.
 TEST(HostMoves, APlaceIsTakenWithTheMotion) {
   FreeBlock w;

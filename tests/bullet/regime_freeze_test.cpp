@@ -146,6 +146,32 @@ TEST(Regime, GravityActsInTheTicksAfterTheWayBack) {
   EXPECT_NEAR(double(block->getLinearVelocity().y()), -kGravity * 20 / 30, 2e-6);
 }
 
+// Whether the world's is switched off for it or not: 0.01 m/s^2 all the time, as elements and before and
+// after.
+TEST(Regime, GravityOfItsOwnActsInEveryState) {
+  constexpr double kOwn = 0.01, kRate = 240;
+  for (const bool isSwitchedOff : {true, false}) {
+    BulletWorld w;
+    w.world.setGravity({0, btScalar(-9.81), 0});
+    DestructibleBody* block = w.destruction->addBody(blockDef({2, 2, 2}, {0, 5, 0}));
+    if (isSwitchedOff) block->setFlags(block->getFlags() | BT_DISABLE_WORLD_GRAVITY);
+    block->setGravity({0, btScalar(kOwn), 0});
+    int ticks = 0;
+    const auto step = [&] {
+      w.world.stepSimulation(btScalar(1 / kRate), 1, btScalar(1 / kRate));
+      EXPECT_NEAR(double(block->linearMomentum().y()) / block->elementMass(), kOwn * ++ticks / kRate, 1e-5);
+    };
+    for (int tick = 0; tick < 10; ++tick) step();
+    w.destruction->strike(block);
+    step();
+    ASSERT_FALSE(block->isWhole());
+    while (!block->isWhole() && ticks < 240) step();
+    ASSERT_TRUE(block->isWhole());
+    for (int tick = 0; tick < 10; ++tick) step();
+    EXPECT_EQ(block->getGravity(), btVector3(0, btScalar(kOwn), 0));
+  }
+}
+
 TEST(Regime, WhatBrokeStaysElements) {
   BulletWorld w;
   DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
