@@ -134,9 +134,10 @@ TEST(EnergyBalance, ShapesThatGrowOrMoveWithinTheirBodyStopNothing) {
 }
 
 TEST(EnergyBalance, TrianglesThatRiseStopNothing) {
-  std::vector<float> places = {-2, 0, -2, -2, 0, 2, 2, 0, 2, 2, 0, -2};
+  std::vector<btScalar> places = {-2, 0, -2, -2, 0, 2, 2, 0, 2, 2, 0, -2};
   std::vector<int> corners = {0, 1, 2, 0, 2, 3};
-  btTriangleIndexVertexArray mesh(2, corners.data(), 3 * sizeof(int), 4, places.data(), 3 * sizeof(float));
+  btTriangleIndexVertexArray mesh(2, corners.data(), int(3 * sizeof(int)), 4, places.data(),
+                                  int(3 * sizeof(btScalar)));
   btGImpactMeshShape ground(&mesh);
   ground.setMargin(0);
   ground.updateBound();
@@ -145,7 +146,7 @@ TEST(EnergyBalance, TrianglesThatRiseStopNothing) {
   double most = 0;
   w.step(60, [&](int) {
     most = std::max(most, w.destruction->ledger().kinetic + w.destruction->ledger().elastic);
-    for (std::size_t y = 1; y < places.size(); y += 3) places[y] += 0.01f;
+    for (std::size_t y = 1; y < places.size(); y += 3) places[y] += btScalar(0.01);
     ground.postUpdate();
     ground.updateBound();
   });
