@@ -245,6 +245,10 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   }
   w.report.substep = step;
   closeTick(w, dt);
+  // Where all lies still a step is as long as its tick. Who wakes did not move through half of that.
+  if (std::ranges::none_of(w.bodies,
+                           [](const auto& b) { return !b->state.asleep && !b->work.awake.empty(); }))
+    w.lastStep = 0;
 }
 
 template void tick(World<float>&, double, const Eigen::Vector3d&, std::span<RigidProxy>);

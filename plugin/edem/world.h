@@ -29,8 +29,8 @@ struct World {
   bool listsStale = true;
   Drifts drifts;                                      ///< since the last listing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< of the last tick [m/s^2]
-  double lastStep = 0;                                ///< of the positions; 0 before the first [s]
-  TickReport report;                                  ///< of the last tick
+  double lastStep = 0;  ///< of the positions; 0 before the first, and while all lies still [s]
+  TickReport report;    ///< of the last tick
   Books books;
   std::string failure;  ///< empty: none
 };

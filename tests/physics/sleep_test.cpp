@@ -81,6 +81,18 @@ TYPED_TEST(Sleep, WhatLiesStillSleepsBesideWhatMoves) {
   EXPECT_LT(this->energyError(), 1e-3);
 }
 
+// A tick in which all sleeps is one step. Gravity acts for the time that it flies, and not for half of that
+// step, 0.08 m/s, before: to half a substep, and what its feet had stored.
+TYPED_TEST(Sleep, WhatIsThrownWhenAllSleptFliesAsFast) {
+  this->solver->addBody(looseCubes(1), kNoGravity);
+  this->tick(60);
+  ASSERT_TRUE(this->sleeps(0));
+  ASSERT_EQ(this->solver->report().substeps, 1);
+  this->push(0, {0, 3, 0});
+  this->tick(1);
+  EXPECT_NEAR(this->solver->velocity(0, 0).y(), 3 + kGravity.y() * kFrame, 0.02);
+}
+
 TYPED_TEST(Sleep, ItWakesByWhatRunsIntoIt) {
   this->solver->addBody(looseCubes(6), kNoGravity);
   // Apart from one another by a cube, but for the last two.
