@@ -24,6 +24,9 @@ constexpr double kSeam = 1e-3;
 // A side of a rigid body that is beyond one of a cell by less than this, over h, is flush with it: its edge
 // presses the cell. Beyond that the cell's vertices, as far inside the body, bear before they are as deep.
 constexpr double kFlush = 0.05;
+// A point that weighs more than this, over that of its area, will press with the next turn: it stands
+// upright.
+constexpr double kUpright = -0.1;
 // Mean distance from the centroid over a face, by that of its corners: 0.54 of a square, 0.67 of a circle.
 constexpr double kFaceSpread = 0.6;
 
@@ -103,6 +106,7 @@ double FaceTouch::approach(const RigidProxy& proxy, const Eigen::Vector3d& at, d
 void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                      const ElementPose& pose, bool balls) {
   m_hits.clear();
+  m_deepest = 0;
   for (Near& n : m_near) n.normal = pose.turn.transpose() * n.centre.normal;
   if (exposure.count[element] > 0) {
     findPoints(cells, exposure, element, pose);
@@ -123,6 +127,7 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
                       0,
                       0,
                       {}});
+  for (const FaceHit& hit : m_hits) m_deepest = std::max(m_deepest, hit.depth);
 }
 
 void FaceTouch::findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
@@ -212,7 +217,10 @@ void FaceTouch::findPoints(const CellFaces& cells, const Exposure& exposure, std
       hit.sliding = -(pose.turn.transpose() * f.slope);
     }
     hit.turning = area.cross(normal);
-    if (!(hit.weight > 0)) m_hits.pop_back();
+    if (!(hit.weight > 0)) {
+      if (hit.weight > kUpright * area.norm()) m_deepest = std::max(m_deepest, hit.depth);
+      m_hits.pop_back();
+    }
   }
 }
 

@@ -74,6 +74,9 @@ class FaceTouch {
   /// withheld in fragment_motion.h.
   void withhold(const ContactLaw<double>& law, const PartingMotion& fragment);
   std::span<const FaceHit> hits() const { return m_hits; }
+  /// Depth of the deepest of them and of the points that will press with the least turn, as those of a face
+  /// that stands upright in a plane do; 0: none [m].
+  double deepest() const { return m_deepest; }
   /// Takes change(hit) [m] off the depth of every hit; those that have none left are hits no more.
   template <class Change>
   void lift(Change&& change) {
@@ -140,6 +143,7 @@ class FaceTouch {
 
   std::vector<Near> m_near;
   std::vector<FaceHit> m_hits;
+  double m_deepest = 0;
   std::vector<MeshSide> m_sides;  // of the meshes in m_near
   std::uint32_t m_sideCount = 0;
   SurfacePoint m_nearest{0, Eigen::Vector3d::UnitY()};

@@ -152,9 +152,8 @@ double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& 
 // just been exposed, for what they cannot have come in the last step; and that by which they gave way. It
 // gives way as they leave. They have one of it, so that all give way together. Returns what the springs lost
 // [J].
-double sinkFaces(std::span<const FaceHit> hits, double exposed, const FaceStep& step, FaceMemory& memory) {
-  double deepest = 0;
-  for (const FaceHit& hit : hits) deepest = std::max(deepest, hit.depth);
+double sinkFaces(std::span<const FaceHit> hits, double deepest, double exposed, const FaceStep& step,
+                 FaceMemory& memory) {
   const bool fresh = memory.deepest <= 0 || memory.area != exposed;
   const double free = memory.deepest + step.way;
   if (fresh && deepest > free) memory.sunk += deepest - free;
@@ -184,7 +183,7 @@ double sink(RigidContact& c, const Body<Real>& body, std::span<const CornerHit> 
             const PartingMotion& fragment, const RigidSide& side, const Eigen::Matrix3d& turn,
             FaceTouch& faces) {
   faces.withhold(step.law, fragment);
-  double lost = sinkFaces(faces.hits(), body.state.exposure.area[c.element], step, c.faces);
+  double lost = sinkFaces(faces.hits(), faces.deepest(), body.state.exposure.area[c.element], step, c.faces);
   for (const CornerHit& h : corners) faces.add(h.hit);
   if (!corners.empty()) faces.withhold(step.law, fragment);
   const Eigen::Vector3d x = body.state.origin + body.work.position[c.element];

@@ -122,6 +122,28 @@ TEST(HostMoves, ItsOwnGravityIsInsteadOfTheWorlds) {
   EXPECT_NEAR(w.velocity().y() - before, 1.5 * 48 / 240, 2e-3);
 }
 
+// Its sides stand upright in the ground, where rounding decides which of their points press; all of them are
+// free from the start.
+TEST(HostMoves, WhatIsPutDeepIntoTheGroundIsNotThrown) {
+  for (const double depth : {0.02, 0.07, 0.11, 0.14, 0.3}) {
+    SCOPED_TRACE(depth);
+    FreeBlock w({0, btScalar(-9.81), 0});
+    btTransform at = w.block->getWorldTransform();
+    at.getOrigin().setY(at.getOrigin().y() - btScalar(FreeBlock::kHeight + depth));
+    w.block->setLinearVelocity({0, 0, 0});
+    w.block->setWorldTransform(at);
+    double fastest = 0;
+    for (int tick = 0; tick < 48; ++tick) {
+      w.step(1);
+      fastest = std::max(fastest, w.velocity().norm());
+    }
+    EXPECT_LT(fastest, 0.02);
+    EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+    EXPECT_EQ(w.destruction->failure(), "");
+    EXPECT_EQ(w.destruction->ledger().makers, 0u);
+  }
+}
+
 // Zero is a gravity, too, and the world's comes back with it.
 TEST(HostMoves, WithoutGravityOfItsOwnItFloats) {
   FreeBlock w({0, btScalar(-9.81), 0});
