@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
+#include "cook/corner_normals.h"
 #include "cook/ear_clipping.h"
 #include "cook/grid_distance.h"
 #include "cook/packing.h"
@@ -72,6 +74,30 @@ TEST(CookWork, AnEarIsComparedWithTheCornersBesideItAlone) {
     expected += (p.x() * q.y() - p.y() * q.x()) / 2;
   }
   EXPECT_NEAR(area, expected, 1e-12);
+}
+
+// Bit by bit, since it is found once: a sum that starts at each of them in turn, as it was, is rounded
+// otherwise and takes the square of their count. A cone's apex, on the axis by symmetry.
+TEST(CookWork, AHubOfManyTrianglesHasOneNormal) {
+  constexpr std::uint32_t kSides = 3000;
+  SurfaceMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 0, 0.2}};
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    const std::uint32_t next = 2 + (k + 1) % kSides;
+    mesh.triangles.push_back({0, next, 2 + k});
+    mesh.triangles.push_back({1, 2 + k, next});
+  }
+  const cooking::CheckedMesh cone = cooking::checkMesh(mesh);
+  const auto normals = cooking::cornerNormals(cone);
+  std::vector<Eigen::Vector3d> atApex;
+  for (std::size_t t = 0; t < normals.size(); ++t)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      if (cone.vertices[cone.triangles[t][corner]].z() > 0.1) atApex.push_back(normals[t][corner]);
+  ASSERT_EQ(atApex.size(), kSides);
+  for (const Eigen::Vector3d& normal : atApex) ASSERT_EQ(normal, atApex[0]);
+  EXPECT_NEAR((atApex[0] - Eigen::Vector3d::UnitZ()).norm(), 0, 1e-12);
 }
 
 // Large triangles are in the tree in many parts: 24 triangles, a few of which are near a place, in 1536
