@@ -16,13 +16,15 @@ class Adoption {
  public:
   explicit Adoption(RestrictedVoronoi& diagram) : m_diagram(diagram), m_pieces(findSitePieces(diagram)) {}
 
-  void run() {
-    if (m_pieces.foreign.empty()) return;
+  bool run() {
+    if (m_pieces.foreign.empty()) return false;
     measureContacts();
     choose();
     listEmptyParts();
     const std::size_t orphans = keepOrphans();
-    if (orphans < m_pieces.foreign.size()) rebuild();
+    if (orphans == m_pieces.foreign.size()) return false;
+    rebuild();
+    return true;
   }
 
  private:
@@ -211,8 +213,8 @@ class Adoption {
 
 }  // namespace
 
-void adoptPieces(RestrictedVoronoi& diagram) {
-  Adoption(diagram).run();
+bool adoptPieces(RestrictedVoronoi& diagram) {
+  return Adoption(diagram).run();
 }
 
 }  // namespace rubble::cooking

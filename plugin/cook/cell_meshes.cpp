@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <map>
-#include <set>
 #include <utility>
 
+#include "cook/scratch_map.h"
 #include "rubble/triangle_look.h"
 
 namespace rubble::cooking {
@@ -33,15 +32,17 @@ struct FaceSums {
 
 class CellMeshBuilder {
  public:
-  CellMeshBuilder(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
-                  Asset& asset)
-      : m_mesh(mesh), m_look(look), m_diagram(diagram), m_asset(asset) {
+  CellMeshBuilder(const CheckedMesh& mesh, const SurfaceLook& look, RestrictedVoronoi diagram, Asset& asset)
+      : m_mesh(mesh), m_look(look), m_diagram(std::move(diagram)), m_asset(asset) {
     asset.materialNames = look.materialNames();
   }
 
+  // Takes what the diagram has of them alone: large, where the surface is of slivers.
   void buildVertices() {
+    m_asset.vertices.reserve(m_diagram.vertices.size());
     for (std::size_t v = 0; v < m_diagram.vertices.size(); ++v)
       m_asset.vertices.push_back({m_diagram.vertices[v].cast<float>(), m_diagram.vertexSites[v]});
+    m_diagram.vertexSites = {};
   }
 
   void buildCell(std::uint32_t cell) {
@@ -61,7 +62,6 @@ class CellMeshBuilder {
   }
 
  private:
-  using CornerKey = std::array<std::uint32_t, 6>;  // vertex, bits of normal and texture coordinates
   using TrianglePolygon = std::pair<std::uint32_t, std::uint32_t>;
 
   std::uint32_t newCorner(std::uint32_t cell, std::uint32_t vertex, const Eigen::Vector3f& normal,
@@ -92,11 +92,10 @@ class CellMeshBuilder {
           m_look.hasUvs() ? m_look.uv(polygon.triangle, place) : Eigen::Vector2f(Eigen::Vector2f::Zero());
       // Neighbouring polygons of the cell share the corner where they agree on normal and texture.
       const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
-      const CornerKey key = {vertex,           bits(normal.x()), bits(normal.y()),
-                             bits(normal.z()), bits(uv.x()),     bits(uv.y())};
-      const auto [entry, isNew] = m_outerCorners.try_emplace(key, 0);
-      if (isNew) entry->second = newCorner(cell, vertex, normal, uv);
-      m_polygonCorners.push_back(entry->second);
+      const auto [corner, isNew] = m_outerCorners.find(
+          {vertex, bits(normal.x()), bits(normal.y()), bits(normal.z()), bits(uv.x()), bits(uv.y())});
+      if (isNew) corner = newCorner(cell, vertex, normal, uv);
+      m_polygonCorners.push_back(corner);
     }
     for (std::size_t k = 2; k < m_polygonCorners.size(); ++k)
       m_asset.triangles.push_back({m_polygonCorners[0], m_polygonCorners[k - 1], m_polygonCorners[k]});
@@ -112,9 +111,9 @@ class CellMeshBuilder {
     m_diagram.visitCap(cap, cell, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t k = 0; const std::uint32_t vertex : {a, b, c}) {
-        const auto [entry, isNew] = m_capCorners.try_emplace(vertex, 0);
-        if (isNew) entry->second = newInnerCorner(cell, vertex, normal.cast<float>());
-        triangle[k++] = entry->second;
+        const auto [corner, isNew] = m_capCorners.find({vertex});
+        if (isNew) corner = newInnerCorner(cell, vertex, normal.cast<float>());
+        triangle[k++] = corner;
       }
       m_asset.triangles.push_back(triangle);
       sums.add(m_diagram.vertices[a], m_diagram.vertices[b], m_diagram.vertices[c]);
@@ -136,22 +135,28 @@ class CellMeshBuilder {
   // One face for each connected set of surface polygons that look nearly the same way.
   void addPatches(std::uint32_t cell) {
     const auto polygons = m_diagram.polygonsOf.of(cell);
-    std::set<TrianglePolygon> left;  // one on a triangle, but for pieces that came from other cells
-    for (const std::uint32_t p : polygons) left.emplace(m_diagram.surface.polygons[p].triangle, p);
+    m_left.clear();  // one on a triangle, but for pieces that came from other cells
+    for (const std::uint32_t p : polygons) m_left.emplace_back(m_diagram.surface.polygons[p].triangle, p);
+    std::sort(m_left.begin(), m_left.end());
+    m_isTaken.assign(m_left.size(), false);
     // From the largest on; of equal ones the first triangle's.
-    std::vector<std::pair<double, std::uint32_t>> bySize;
-    for (const auto& [triangle, p] : left) bySize.emplace_back(polygonSize(p), p);
+    std::vector<std::pair<double, std::size_t>> bySize;
+    for (std::size_t at = 0; at < m_left.size(); ++at)
+      bySize.emplace_back(polygonSize(m_left[at].second), at);
     std::stable_sort(bySize.begin(), bySize.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [size, p] : bySize)
-      if (left.contains({m_diagram.surface.polygons[p].triangle, p})) addPatch(p, left);
+    for (const auto& [size, at] : bySize)
+      if (!m_isTaken[at]) addPatch(at);
   }
 
-  void takeOn(std::uint32_t triangle, const Eigen::Vector3d& orientation, std::set<TrianglePolygon>& left) {
-    for (auto next = left.lower_bound({triangle, 0}); next != left.end() && next->first == triangle;) {
-      if (m_mesh.normals[triangle].dot(orientation) < kPatchCosine) return;
+  void takeOn(std::uint32_t triangle, const Eigen::Vector3d& orientation) {
+    if (m_mesh.normals[triangle].dot(orientation) < kPatchCosine) return;
+    const auto first = std::lower_bound(m_left.begin(), m_left.end(), TrianglePolygon{triangle, 0});
+    for (auto next = first; next != m_left.end() && next->first == triangle; ++next) {
+      const auto at = std::size_t(next - m_left.begin());
+      if (m_isTaken[at]) continue;
+      m_isTaken[at] = true;
       m_queue.push_back(next->second);
-      next = left.erase(next);
     }
   }
 
@@ -167,22 +172,22 @@ class CellMeshBuilder {
     });
   }
 
-  // Floods from the polygon `first` and takes what it reaches out of `left`.
-  void addPatch(std::uint32_t first, std::set<TrianglePolygon>& left) {
+  // Floods from one of the polygons that are left and takes what it reaches.
+  void addPatch(std::size_t start) {
     const SurfacePieces& surface = m_diagram.surface;
-    const Eigen::Vector3d orientation = m_mesh.normals[surface.polygons[first].triangle];
+    const Eigen::Vector3d orientation = m_mesh.normals[m_left[start].first];
     FaceSums sums;
-    m_queue.assign(1, first);
-    left.erase({surface.polygons[first].triangle, first});
+    m_queue.assign(1, m_left[start].second);
+    m_isTaken[start] = true;
     for (std::size_t at = 0; at < m_queue.size(); ++at) {
       const SurfacePolygon& polygon = surface.polygons[m_queue[at]];
       addSums(polygon, sums);
       for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const std::uint32_t label = surface.labels[polygon.first + k];
         if (label < kSideLabel) continue;
-        takeOn(m_mesh.neighbours[polygon.triangle][label - kSideLabel], orientation, left);
+        takeOn(m_mesh.neighbours[polygon.triangle][label - kSideLabel], orientation);
       }
-      takeOn(polygon.triangle, orientation, left);
+      takeOn(polygon.triangle, orientation);
     }
     const double length = sums.area.norm();
     const Eigen::Vector3d normal = length > 0 ? Eigen::Vector3d(sums.area / length) : orientation;
@@ -192,21 +197,24 @@ class CellMeshBuilder {
 
   const CheckedMesh& m_mesh;
   const SurfaceLook& m_look;
-  const RestrictedVoronoi& m_diagram;
+  RestrictedVoronoi m_diagram;
   Asset& m_asset;
-  std::map<CornerKey, std::uint32_t> m_outerCorners;
-  std::map<std::uint32_t, std::uint32_t> m_capCorners;  // vertex -> corner
+  ScratchMap<6> m_outerCorners;         // by vertex and bits of normal and texture coordinates
+  ScratchMap<1> m_capCorners;           // by vertex
+  std::vector<TrianglePolygon> m_left;  // sorted; of the cell at hand
+  std::vector<bool> m_isTaken;          // of them
   std::vector<std::uint32_t> m_polygonCorners, m_queue;
 };
 
 }  // namespace
 
-void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
+void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, RestrictedVoronoi diagram,
                      Asset& asset) {
-  CellMeshBuilder builder(mesh, look, diagram, asset);
+  const std::size_t cells = diagram.cellCount();
+  CellMeshBuilder builder(mesh, look, std::move(diagram), asset);
   builder.buildVertices();
-  asset.cells.reserve(diagram.cellCount());
-  for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) builder.buildCell(cell);
+  asset.cells.reserve(cells);
+  for (std::uint32_t cell = 0; cell < cells; ++cell) builder.buildCell(cell);
 }
 
 }  // namespace rubble::cooking

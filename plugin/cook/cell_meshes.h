@@ -7,8 +7,9 @@
 
 namespace rubble::cooking {
 
-/// Fills vertices, corners, triangles, faces and cells of the asset, and what the surface's look gives.
-void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, const RestrictedVoronoi& diagram,
+/// Takes the diagram, to free what is done with on the way. Fills vertices, corners, triangles, faces and
+/// cells of the asset, and what the surface's look gives.
+void buildCellMeshes(const CheckedMesh& mesh, const SurfaceLook& look, RestrictedVoronoi diagram,
                      Asset& asset);
 
 }  // namespace rubble::cooking

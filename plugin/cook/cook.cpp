@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cook/balance.h"
 #include "cook/cell_meshes.h"
@@ -209,7 +210,6 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   }();
   for (const auto& [level, text] : elements.notes)
     if (log) log(level, text);
-  const SitePieces pieces = findSitePieces(diagram);
 
   report(kProgressMeshes, "building meshes");
   Asset asset;
@@ -217,10 +217,13 @@ Asset cook(const SurfaceMesh& mesh, const CookOptions& options, const ProgressFu
   asset.radius = elements.radius;
   placeElements(solid, diagram, std::move(elements.centres), log, asset);
   const double spacing = asset.spacing();
-  asset.springs = findSprings(diagram, pieces, options.minFaceArea * spacing * spacing);
-  asset.anchors = findAnchors(solid, diagram, pieces, anchorWish(options, origin));
+  {
+    const SitePieces pieces = findSitePieces(diagram);
+    asset.springs = findSprings(diagram, pieces, options.minFaceArea * spacing * spacing);
+    asset.anchors = findAnchors(solid, diagram, pieces, anchorWish(options, origin));
+  }
   checkTies(solid, asset, log);
-  buildCellMeshes(solid, SurfaceLook(mesh, solid), diagram, asset);
+  buildCellMeshes(solid, SurfaceLook(mesh, solid), std::move(diagram), asset);
   asset.validate();
   report(1, "done");
   return asset;

@@ -48,22 +48,24 @@ RestrictedVoronoi cut(const CheckedMesh& mesh, std::vector<Eigen::Vector3d> site
   VertexPool pool(mesh, diagram);
   result.surface = cutSurface(mesh, diagram, pool);
   const std::vector<InsideStretch> stretches = insideStretches(diagram, result.surface, pool);
+  result.surface.hits = {};
   result.caps = buildCaps(diagram, result.surface, stretches, pool);
   result.sites = std::move(sites);
-  result.vertices = pool.positions();
-  result.vertexSites = pool.sites();
+  result.vertices = pool.takePositions();
+  result.vertexSites = pool.takeSites();
   result.listItems();
   return result;
 }
 
 // Every directed edge of every cell must have exactly one opposite.
 void checkClosed(const RestrictedVoronoi& diagram) {
-  // Smaller vertex, larger vertex, then direction: opposites end up side by side.
-  std::vector<std::array<std::uint32_t, 3>> edges;
+  // Smaller vertex, larger vertex, then direction, in one number (vertices count to
+  // less than 2^31): opposites end up side by side.
+  std::vector<std::uint64_t> edges;
   for (std::uint32_t cell = 0; cell < diagram.cellCount(); ++cell) {
     edges.clear();
-    const auto add = [&edges](std::uint32_t a, std::uint32_t b) {
-      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 0u : 1u});
+    const auto add = [&edges](std::uint64_t a, std::uint64_t b) {
+      edges.push_back((std::min(a, b) << 33) | (std::max(a, b) << 1) | (a < b ? 0u : 1u));
     };
     diagram.visitCell(cell, [&add](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       add(a, b);
@@ -74,9 +76,8 @@ void checkClosed(const RestrictedVoronoi& diagram) {
     if (edges.empty()) throw Contradiction("a cell is empty");
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const bool isSecond = e % 2 != 0;
-      if (edges[e][2] != (isSecond ? 1u : 0u)) throw Contradiction("a cell is not closed");
-      if (isSecond && (edges[e][0] != edges[e - 1][0] || edges[e][1] != edges[e - 1][1]))
-        throw Contradiction("a cell is not closed");
+      if ((edges[e] % 2 != 0) != isSecond) throw Contradiction("a cell is not closed");
+      if (isSecond && edges[e] / 2 != edges[e - 1] / 2) throw Contradiction("a cell is not closed");
     }
     if (edges.size() % 2 != 0) throw Contradiction("a cell is not closed");
   }
@@ -119,8 +120,7 @@ RestrictedVoronoi restrictedVoronoi(const CheckedMesh& mesh, std::span<const Eig
       RestrictedVoronoi result = cut(mesh, jittered(sites, jitter, seed + std::uint64_t(attempt)));
       checkClosed(result);
       checkVolume(result, mesh.volume);
-      adoptPieces(result);
-      checkClosed(result);
+      if (adoptPieces(result)) checkClosed(result);
       return result;
     } catch (const Contradiction& contradiction) {
       reason = contradiction.what();

@@ -51,6 +51,7 @@ class TriangleCutter {
   // Cuts the triangle by the cell of `start`, which holds one of its corners, then by every cell found behind
   // a cut.
   void cut(std::uint32_t triangle, std::uint32_t start) {
+    m_pool.enter(triangle);
     m_queue.assign(1, start);
     m_visitor[start] = triangle;
     for (std::size_t at = 0; at < m_queue.size(); ++at) {
@@ -123,9 +124,9 @@ class TriangleCutter {
     }
     if (before >= kSideLabel || after >= kSideLabel) {
       const std::uint32_t side = std::max(before, after) - kSideLabel;
-      return m_pool.onMeshEdge(m_mesh.triangleEdges[triangle][side], site, std::min(before, after));
+      return m_pool.onSide(side, site, std::min(before, after));
     }
-    const std::uint32_t vertex = m_pool.onTriangle(triangle, {site, before, after}, corner.place);
+    const std::uint32_t vertex = m_pool.onTriangle({site, before, after}, corner.place);
     // Three polygons share the vertex; the one of the smallest site reports it. Seen from outside the cells
     // stand counter-clockwise as (site, before, after), so the triangle's normal and the Voronoi edge's
     // direction agree, and the edge leaves, iff `before` is the smaller of the other two.

@@ -5,10 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "cook/checked_mesh.h"
+#include "cook/scratch_map.h"
 #include "cook/voronoi_diagram.h"
 
 namespace rubble::cooking {
@@ -22,21 +23,19 @@ class VertexPool {
   explicit VertexPool(const CheckedMesh& mesh, const VoronoiDiagram& diagram);
 
   std::uint32_t meshVertex(std::uint32_t vertex, std::uint32_t site);
-  std::uint32_t onMeshEdge(std::uint32_t edge, std::uint32_t siteA, std::uint32_t siteB);
+  /// Goes on to a triangle, for the vertices on its sides and inside of it; to each triangle once.
+  void enter(std::uint32_t triangle);
+  std::uint32_t onSide(std::uint32_t side, std::uint32_t siteA, std::uint32_t siteB);
   /// `place` is taken where the vertex is new.
-  std::uint32_t onTriangle(std::uint32_t triangle, std::array<std::uint32_t, 3> sites,
-                           const Eigen::Vector3d& place);
+  std::uint32_t onTriangle(std::array<std::uint32_t, 3> sites, const Eigen::Vector3d& place);
   std::uint32_t voronoiVertex(std::uint32_t vertex);
 
   const std::vector<Eigen::Vector3d>& positions() const { return m_positions; }
+  std::vector<Eigen::Vector3d> takePositions() { return std::move(m_positions); }
   /// The sites whose cells meet at each vertex, ascending; kNoElement behind them.
-  const std::vector<std::array<std::uint32_t, 4>>& sites() const { return m_sites; }
+  std::vector<std::array<std::uint32_t, 4>> takeSites() { return std::move(m_sites); }
 
  private:
-  using Key = std::array<std::uint32_t, 4>;
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
   std::uint32_t add(const Eigen::Vector3d& place, const std::array<std::uint32_t, 4>& sites);
 
   const CheckedMesh& m_mesh;
@@ -45,7 +44,12 @@ class VertexPool {
   std::vector<std::array<std::uint32_t, 4>> m_sites;
   std::vector<std::uint32_t> m_ofMeshVertex;
   std::vector<std::uint32_t> m_ofVoronoiVertex;
-  std::unordered_map<Key, std::uint32_t, KeyHash> m_ofKey;  // looked up only, never walked over
+  // Only two triangles ask for the vertices of an edge, so those are in a list, and only what may meet on the
+  // triangle at hand is in a map, by sites and side.
+  std::vector<std::uint32_t> m_lastOnEdge;  // kNoElement: none
+  std::vector<std::uint32_t> m_before;      // on the same edge, of each vertex up to the last on any
+  std::uint32_t m_triangle = kNoElement;    // at hand
+  ScratchMap<3> m_ofSites;
 };
 
 /// The part of one triangle that lies in one cell: convex, counter-clockwise seen from outside.

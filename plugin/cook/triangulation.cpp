@@ -2,27 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
+#include "cook/ear_clipping.h"
+
 namespace rubble::cooking {
 namespace {
-
-struct FlatPoint {
-  Eigen::Vector2d place;
-  std::uint32_t id;
-};
-using FlatLoop = std::vector<FlatPoint>;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// Twice the signed area; positive where a, b, c turn left.
-double turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
-  return cross(b.place - a.place, c.place - a.place);
-}
 
 double signedArea(const FlatLoop& loop) {
   double sum = 0;
@@ -107,47 +93,6 @@ void joinHoles(FlatLoop& rim, std::vector<FlatLoop> holes) {
   }
 }
 
-bool isEar(const FlatLoop& loop, std::size_t at) {
-  const std::size_t n = loop.size();
-  const FlatPoint& a = loop[(at + n - 1) % n];
-  const FlatPoint& b = loop[at];
-  const FlatPoint& c = loop[(at + 1) % n];
-  if (turn(a, b, c) <= 0) return false;
-  for (const FlatPoint& p : loop) {
-    if (p.id == a.id || p.id == b.id || p.id == c.id) continue;  // bridges repeat corners
-    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
-  }
-  return true;
-}
-
-// Slivers may have no ear in rounded arithmetic; then the corner that turns left the most has to do.
-std::size_t mostConvex(const FlatLoop& loop) {
-  const std::size_t n = loop.size();
-  std::size_t best = 0;
-  double bestTurn = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < n; ++k) {
-    const double value = turn(loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]);
-    if (value <= bestTurn) continue;
-    bestTurn = value;
-    best = k;
-  }
-  return best;
-}
-
-void clipEars(FlatLoop loop, std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  std::size_t at = 0;
-  while (loop.size() >= 3) {
-    std::size_t tried = 0;
-    for (; tried < loop.size() && !isEar(loop, at % loop.size()); ++tried) ++at;
-    const std::size_t n = loop.size();
-    const std::size_t ear = tried < n ? at % n : mostConvex(loop);
-    triangles.push_back({loop[(ear + n - 1) % n].id, loop[ear].id, loop[(ear + 1) % n].id});
-    if (n == 3) break;
-    loop.erase(loop.begin() + std::ptrdiff_t(ear));
-    at = ear + 1;  // past the next corner: ears taken in turn give rounder triangles than a fan
-  }
-}
-
 // The smallest rim around the hole, or the count of rims.
 std::size_t rimOf(const FlatLoop& hole, const std::vector<FlatLoop>& rims) {
   std::size_t best = rims.size();
@@ -176,12 +121,12 @@ void triangulate(std::span<const Loop> loops, const std::vector<Eigen::Vector3d>
     if (rim < holesOf.size()) {
       holesOf[rim].push_back(std::move(hole));
     } else {
-      clipEars(std::move(hole), triangles);  // a sliver whose area rounding turned negative
+      clipEars(hole, triangles);  // a sliver whose area rounding turned negative
     }
   }
   for (std::size_t r = 0; r < rims.size(); ++r) {
     joinHoles(rims[r], std::move(holesOf[r]));
-    clipEars(std::move(rims[r]), triangles);
+    clipEars(rims[r], triangles);
   }
 }
 

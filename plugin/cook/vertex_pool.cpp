@@ -1,22 +1,17 @@
 #include <algorithm>
+#include <utility>
 
 #include "cook/contradiction.h"
-#include "cook/random.h"
 #include "cook/surface_pass.h"
 
 namespace rubble::cooking {
-
-std::size_t VertexPool::KeyHash::operator()(const Key& key) const {
-  const std::uint64_t low = key[0] | (std::uint64_t{key[1]} << 32);
-  const std::uint64_t high = key[2] | (std::uint64_t{key[3]} << 32);
-  return mix(mix(low) + high);
-}
 
 VertexPool::VertexPool(const CheckedMesh& mesh, const VoronoiDiagram& diagram)
     : m_mesh(mesh),
       m_diagram(diagram),
       m_ofMeshVertex(mesh.vertices.size(), kNoElement),
-      m_ofVoronoiVertex(diagram.vertices.size(), kNoElement) {}
+      m_ofVoronoiVertex(diagram.vertices.size(), kNoElement),
+      m_lastOnEdge(mesh.edges.size(), kNoElement) {}
 
 std::uint32_t VertexPool::add(const Eigen::Vector3d& place, const std::array<std::uint32_t, 4>& sites) {
   m_positions.push_back(place);
@@ -30,11 +25,21 @@ std::uint32_t VertexPool::meshVertex(std::uint32_t vertex, std::uint32_t site) {
   return id;
 }
 
-std::uint32_t VertexPool::onMeshEdge(std::uint32_t edge, std::uint32_t siteA, std::uint32_t siteB) {
+void VertexPool::enter(std::uint32_t triangle) {
+  m_triangle = triangle;
+  m_ofSites.clear();
+  for (std::uint32_t side = 0; side < 3; ++side)
+    for (std::uint32_t v = m_lastOnEdge[m_mesh.triangleEdges[triangle][side]]; v != kNoElement;
+         v = m_before[v])
+      m_ofSites.find({m_sites[v][0], m_sites[v][1], kSideLabel + side}).number = v;
+}
+
+std::uint32_t VertexPool::onSide(std::uint32_t side, std::uint32_t siteA, std::uint32_t siteB) {
   const std::uint32_t i = std::min(siteA, siteB);
   const std::uint32_t j = std::max(siteA, siteB);
-  const auto [entry, isNew] = m_ofKey.try_emplace(Key{edge, i, j, kNoElement}, 0);
+  const auto [number, isNew] = m_ofSites.find({i, j, kSideLabel + side});
   if (isNew) {
+    const std::uint32_t edge = m_mesh.triangleEdges[m_triangle][side];
     const Eigen::Vector3d& a = m_mesh.vertices[m_mesh.edges[edge][0]];
     const Eigen::Vector3d& b = m_mesh.vertices[m_mesh.edges[edge][1]];
     const Eigen::Vector3d across = m_diagram.points[j] - m_diagram.points[i];
@@ -42,17 +47,18 @@ std::uint32_t VertexPool::onMeshEdge(std::uint32_t edge, std::uint32_t siteA, st
     const double atA = across.dot(a - middle);
     const double atB = across.dot(b - middle);
     const double share = atA == atB ? 0.5 : std::clamp(atA / (atA - atB), 0.0, 1.0);
-    entry->second = add(a + share * (b - a), {i, j, kNoElement, kNoElement});
+    number = add(a + share * (b - a), {i, j, kNoElement, kNoElement});
+    m_before.resize(m_positions.size(), kNoElement);
+    m_before[number] = std::exchange(m_lastOnEdge[edge], number);
   }
-  return entry->second;
+  return number;
 }
 
-std::uint32_t VertexPool::onTriangle(std::uint32_t triangle, std::array<std::uint32_t, 3> sites,
-                                     const Eigen::Vector3d& place) {
+std::uint32_t VertexPool::onTriangle(std::array<std::uint32_t, 3> sites, const Eigen::Vector3d& place) {
   std::sort(sites.begin(), sites.end());
-  const auto [entry, isNew] = m_ofKey.try_emplace(Key{triangle, sites[0], sites[1], sites[2]}, 0);
-  if (isNew) entry->second = add(place, {sites[0], sites[1], sites[2], kNoElement});
-  return entry->second;
+  const auto [number, isNew] = m_ofSites.find(sites);
+  if (isNew) number = add(place, {sites[0], sites[1], sites[2], kNoElement});
+  return number;
 }
 
 std::uint32_t VertexPool::voronoiVertex(std::uint32_t vertex) {

@@ -2,8 +2,12 @@
 // not timed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
+#include "cook/corner_normals.h"
+#include "cook/ear_clipping.h"
 #include "cook/grid_distance.h"
 #include "cook/packing.h"
 #include "support/strict_cook.h"
@@ -40,6 +44,60 @@ TEST(CookWork, LongTrianglesThatLieAslantAreTriedOnlyNearby) {
   const Work work = workOfPacking(tilted(plateOfStrips(512)), 0.02);
   EXPECT_LT(work.triangles, 200 * work.nodes);
   EXPECT_LT(work.triangles, 100'000'000u);
+}
+
+// The outline of a face on a surface of slivers: half a disc whose straight side has many corners, off the
+// line by little.
+cooking::FlatLoop outlineOnSlivers(std::uint32_t corners) {
+  std::mt19937_64 generator(5);
+  cooking::FlatLoop loop;
+  const auto add = [&loop](double x, double y) { loop.push_back({{x, y}, std::uint32_t(loop.size())}); };
+  for (std::uint32_t k = 0; k <= corners; ++k)
+    add(-1 + 2.0 * k / corners, 1e-13 * (double(generator() >> 11) * 0x1p-53 - 0.5));
+  for (const double angle : {0.5, 1.0, 1.5, 2.0, 2.5}) add(std::cos(angle), std::sin(angle));
+  return loop;
+}
+
+// Compared with all corners each ear takes half of them on average, 8e6 in all.
+TEST(CookWork, AnEarIsComparedWithTheCornersBesideItAlone) {
+  constexpr std::uint32_t kCorners = 4000;
+  const cooking::FlatLoop loop = outlineOnSlivers(kCorners);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  EXPECT_LT(cooking::clipEars(loop, triangles), 50u * kCorners);
+  ASSERT_EQ(triangles.size(), loop.size() - 2);
+  double area = 0;
+  double expected = 0;  // shoelace formula
+  for (const auto& [a, b, c] : triangles) area += cooking::turn(loop[a], loop[b], loop[c]) / 2;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Eigen::Vector2d& p = loop[k].place;
+    const Eigen::Vector2d& q = loop[(k + 1) % loop.size()].place;
+    expected += (p.x() * q.y() - p.y() * q.x()) / 2;
+  }
+  EXPECT_NEAR(area, expected, 1e-12);
+}
+
+// Bit by bit, since it is found once: a sum that starts at each of them in turn, as it was, is rounded
+// otherwise and takes the square of their count. A cone's apex, on the axis by symmetry.
+TEST(CookWork, AHubOfManyTrianglesHasOneNormal) {
+  constexpr std::uint32_t kSides = 3000;
+  SurfaceMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 0, 0.2}};
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    const std::uint32_t next = 2 + (k + 1) % kSides;
+    mesh.triangles.push_back({0, next, 2 + k});
+    mesh.triangles.push_back({1, 2 + k, next});
+  }
+  const cooking::CheckedMesh cone = cooking::checkMesh(mesh);
+  const auto normals = cooking::cornerNormals(cone);
+  std::vector<Eigen::Vector3d> atApex;
+  for (std::size_t t = 0; t < normals.size(); ++t)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      if (cone.vertices[cone.triangles[t][corner]].z() > 0.1) atApex.push_back(normals[t][corner]);
+  ASSERT_EQ(atApex.size(), kSides);
+  for (const Eigen::Vector3d& normal : atApex) ASSERT_EQ(normal, atApex[0]);
+  EXPECT_NEAR((atApex[0] - Eigen::Vector3d::UnitZ()).norm(), 0, 1e-12);
 }
 
 // Large triangles are in the tree in many parts: 24 triangles, a few of which are near a place, in 1536
