@@ -4,117 +4,18 @@
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionShapes/btCompoundShape.h>
-#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <algorithm>
-#include <limits>
+#include <memory>
 
 #include "bullet/body_impl.h"
-#include "bullet/cell_sweep.h"
 #include "bullet/convert.h"
+#include "bullet/near_points.h"
 #include "bullet/world_tick.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 namespace {
-
-// A point where an element and the other object are near.
-struct Near {
-  Eigen::Vector3d point, normal;  // on the other object's surface, out of it
-  double distance;
-};
-
-// Fewest points that show where a contact is: the deepest, then always the one furthest from those chosen.
-// A manifold of Bullet's holds four.
-void keepFour(std::vector<Near>& points) {
-  constexpr std::size_t kPoints = MANIFOLD_CACHE_SIZE;
-  if (points.size() <= kPoints) return;
-  const auto deeper = [](const Near& a, const Near& b) { return a.distance < b.distance; };
-  std::iter_swap(points.begin(), std::min_element(points.begin(), points.end(), deeper));
-  for (std::size_t n = 1; n < kPoints; ++n) {
-    const auto apart = [&](const Near& p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < n; ++k) least = std::min(least, (p.point - points[k].point).squaredNorm());
-      return least;
-    };
-    const auto nearer = [&](const Near& a, const Near& b) { return apart(a) < apart(b); };
-    const auto rest = points.begin() + std::ptrdiff_t(n);
-    std::iter_swap(rest, std::max_element(rest, points.end(), nearer));
-  }
-  points.resize(kPoints);
-}
-
-// Points of the elements' spheres of `own` within `margin` of `other` [m]: what each tick can afford.
-std::vector<Near> nearSpheres(const DestructibleBody& own, const btCollisionObject& other, double margin) {
-  std::vector<Near> points;
-  Destruction::Impl& world = *own.impl().world;
-  Eigen::AlignedBox3d reached = own.impl().shape->box();
-  reached.min().array() -= margin;
-  reached.max().array() += margin;
-  const edem::RigidProxy proxy = world.proxyMaker.make(other, std::span(&reached, 1));
-  const edem::Solver& solver = *world.solver;
-  const double radius = solver.radius(own.id());
-  Eigen::AlignedBox3d box = proxy.bounds();
-  box.min().array() -= radius + margin;
-  box.max().array() += radius + margin;
-  const Eigen::Quaterniond back = proxy.orientation.conjugate();
-  for (const std::uint32_t i : own.impl().shape->elementsNear(toBullet(box.min()), toBullet(box.max()))) {
-    const Eigen::Vector3d at = solver.position(own.id(), i);
-    if (!box.contains(at)) continue;
-    for (const edem::Collider& part : proxy.parts) {
-      const edem::SurfacePoint s = edem::nearest(part, back * (at - proxy.position), radius + margin);
-      if (s.distance - radius > margin) continue;
-      const Eigen::Vector3d normal = proxy.orientation * s.normal;
-      points.push_back({at - s.distance * normal, normal, s.distance - radius});
-    }
-  }
-  keepFour(points);
-  return points;
-}
-
-// Points where the cells of `own` are within `margin` of a shape at `place` [m].
-void addNearCells(const DestructibleBody& own, const btCollisionShape& shape, const btTransform& place,
-                  double margin, std::vector<Near>& points) {
-  if (shape.isCompound()) {
-    const auto& compound = static_cast<const btCompoundShape&>(shape);
-    for (int c = 0; c < compound.getNumChildShapes(); ++c)
-      addNearCells(own, *compound.getChildShape(c), place * compound.getChildTransform(c), margin, points);
-    return;
-  }
-  const bool isPlane = shape.getShapeType() == STATIC_PLANE_PROXYTYPE;
-  if (!isPlane && !shape.isConvex()) return;
-  const edem::Solver& solver = *own.impl().world->solver;
-  btVector3 low, high;
-  shape.getAabb(place, low, high);
-  const btVector3 grow = btVector3(1, 1, 1) * btScalar(margin);
-  for (const std::uint32_t i : own.impl().shape->elementsNear(low - grow, high + grow)) {
-    const CellShape cell(solver.cells(own.id()), i, solver.radius(own.id()));
-    const Eigen::Vector3d at = solver.position(own.id(), i);
-    const btTransform turn(toBullet(solver.orientation(own.id(), i)));
-    btTransform about = place;
-    about.setOrigin(place.getOrigin() - toBullet(at));
-    std::optional<CellDistance> near;
-    if (isPlane)
-      near = distanceOf(static_cast<const btStaticPlaneShape&>(shape), about, cell, turn);
-    else
-      near = distanceOf(static_cast<const btConvexShape&>(shape), about, cell, turn);
-    if (!near || double(near->distance) > margin) continue;
-    const Eigen::Vector3d normal = -toEigen(near->normal);
-    const double distance = double(near->distance);
-    points.push_back({at + toEigen(near->onCell) - distance * normal, normal, distance});
-  }
-}
-
-// Changes nothing, neither in the world nor in what it keeps of shapes.
-std::vector<Near> nearCells(const DestructibleBody& own, const btCollisionObjectWrapper& other,
-                            double margin) {
-  std::vector<Near> points;
-  addNearCells(own, *other.getCollisionShape(), other.getWorldTransform(), margin, points);
-  keepFour(points);
-  return points;
-}
 
 // Notes who is near for the substeps, and writes manifold points for the application; Bullet's solver leaves
 // these alone (DestructibleBody's contactProcessingThreshold). Two destructibles touch by their elements and
@@ -153,8 +54,8 @@ class ElementAlgorithm : public btCollisionAlgorithm {
                                     : double(m_manifold->getContactBreakingThreshold());
     const DestructibleBody& own = ownA ? *ownA : *ownB;
     if (!own.impl().world) return;
-    for (const Near& p : m_isQuery ? nearCells(own, ownA ? *second : *first, margin)
-                                   : nearSpheres(own, ownA ? *b : *a, margin)) {
+    for (const NearPoint& p : m_isQuery ? nearCells(own, ownA ? *second : *first, margin)
+                                        : nearSpheres(own, ownA ? *b : *a, margin, m_resting)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
       if (!m_isQuery) m_touching = m_touching || p.distance < own.impl().shape->margin();
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
@@ -183,6 +84,7 @@ class ElementAlgorithm : public btCollisionAlgorithm {
   }
 
   btPersistentManifold* m_manifold;
+  std::unique_ptr<RestingPoints> m_resting;  // once something of the body has fallen asleep
   bool m_isQuery;
   bool m_touching = false;  // when last looked at
 };

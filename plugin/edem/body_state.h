@@ -57,8 +57,9 @@ struct BodyState {
   std::vector<float> slowPeak;
   std::vector<std::uint8_t> slowTurned;
   std::uint32_t sleepingCount = 0;
-  double energyAsleep = 0;  ///< in the springs of those [J]
-  double massAsleep = 0;    ///< of those [kg]
+  std::uint64_t sleepChanges = 0;  ///< how often it has been another set of elements that sleep
+  double energyAsleep = 0;         ///< in the springs of those [J]
+  double massAsleep = 0;           ///< of those [kg]
 
   // What the host asks for.
   bool asleep = false;         ///< all of it, by its host

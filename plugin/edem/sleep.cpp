@@ -60,6 +60,7 @@ double energyAsleep(const Body<Real>& body) {
 
 template <class Real>
 void recount(Body<Real>& body) {
+  ++body.state.sleepChanges;
   body.state.sleepingCount =
       std::uint32_t(std::count(body.state.sleeping.begin(), body.state.sleeping.end(), 1));
   body.state.energyAsleep = body.state.sleepingCount > 0 ? energyAsleep(body) : 0;

@@ -78,7 +78,8 @@ class SolverOf final : public Solver {
     const Body<Real>& b = of(id);
     return {b.state.alive,        b.state.intact,   b.state.fragment,      b.constants->mass,
             b.constants->inertia, b.state.sleeping, b.state.fragmentCount, b.state.crushedCount,
-            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount, b.state.anchorsIntact};
+            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount, b.state.anchorsIntact,
+            b.state.sleepChanges};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {

@@ -325,5 +325,40 @@ TEST(Query, ManifoldShowsTheBlowAndBulletLeavesItAlone) {
   EXPECT_LT(double(ball->getLinearVelocity().z()), 0);
 }
 
+// Rubble on the ground, while more and more of it sleeps: the lowest sphere is at the manifold's deepest
+// point.
+TEST(Query, ManifoldShowsWhatSleepsAndWhatMoves) {
+  BulletWorld w;
+  DestructibleBodyDef def;
+  def.asset = std::make_shared<const Asset>(gridAsset({{8, 2, 4}, 0.05, Eigen::Vector3d::Zero()}));
+  def.anchored = false;
+  DestructibleBody* slab = w.destruction->addBody(def);
+  btRigidBody* ball = w.add(20, w.ballShape, {btScalar(0.2), btScalar(0.25), btScalar(0.1)});
+  ball->setLinearVelocity({0, -10, 0});
+  int looked = 0;
+  std::vector<ElementPose> poses(slab->asset()->elementCount());
+  for (int tick = 0; tick < 480; ++tick) {
+    if (tick == 40) w.remove(ball);
+    w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+    slab->poses(poses);
+    double lowest = 1;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      if (slab->elementsAlive()[i]) lowest = std::min(lowest, double(poses[i].position.y()));
+    // The manifold is of the tick's beginning: nothing may move by more in it than 1e-4.
+    if (slab->isAsleep() || tick < 120) continue;
+    for (int m = 0; m < w.dispatcher.getNumManifolds(); ++m) {
+      const btPersistentManifold* manifold = w.dispatcher.getManifoldByIndexInternal(m);
+      double deepest = 1;
+      for (int c = 0; c < manifold->getNumContacts(); ++c)
+        deepest = std::min(deepest, double(manifold->getContactPoint(c).getDistance()));
+      EXPECT_EQ(manifold->getNumContacts(), 4);
+      EXPECT_NEAR(deepest, lowest - slab->asset()->radius, 1e-4) << tick;
+      ++looked;
+    }
+  }
+  EXPECT_GT(w.destruction->counts().fragments, 3u);
+  EXPECT_GT(looked, 30);
+}
+
 }  // namespace
 }  // namespace rubble::test
