@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bullet/bullet_world.h"
+#include "support/grid_asset.h"
 
 namespace rubble::test {
 namespace {
