@@ -22,7 +22,8 @@ bool isFinite(const btRigidBody& body) {
 
 // Of the application: Bullet adds what gravity of the body's own does, unless the body slept [N].
 btVector3 forceOn(const btRigidBody& body) {
-  constexpr btScalar kRounding = btScalar(1e-5);  // of Bullet's product
+  constexpr btScalar kRounding = btScalar(1e-5);   // of Bullet's product
+  if (!(body.getInvMass() > 0)) return {0, 0, 0};  // all of it is crushed
   const btVector3& all = body.getTotalForce();
   const btVector3 weight = body.getGravity() / body.getInvMass() * body.getLinearFactor();
   const btVector3 force = all - weight;
