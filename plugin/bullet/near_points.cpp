@@ -131,24 +131,25 @@ std::vector<NearPoint> nearSpheres(const DestructibleBody& own, const btCollisio
                                    std::unique_ptr<RestingPoints>& resting) {
   const Surface surface(own, other, margin);
   const edem::BodyView view = own.impl().world->solver->view(own.id());
+  const auto addThatSleep = [&](bool sleep, std::vector<NearPoint>& points) {
+    for (const std::uint32_t i :
+         own.impl().shape->elementsNear(toBullet(surface.box().min()), toBullet(surface.box().max())))
+      if (bool(view.sleeping[i]) == sleep) surface.addNear(i, points);
+    keepFour(points);
+  };
   std::vector<NearPoint> points;
   if (view.sleepingCount == 0) {
     resting.reset();
-    for (const std::uint32_t i :
-         own.impl().shape->elementsNear(toBullet(surface.box().min()), toBullet(surface.box().max())))
-      surface.addNear(i, points);
-    keepFour(points);
+    addThatSleep(false, points);
     return points;
   }
   RestingPoints now = restNow(own, other, margin);
   if (!resting || !isSame(*resting, now)) {
-    for (const std::uint32_t i :
-         own.impl().shape->elementsNear(toBullet(surface.box().min()), toBullet(surface.box().max())))
-      if (view.sleeping[i]) surface.addNear(i, now.points);
-    keepFour(now.points);
+    addThatSleep(true, now.points);
     resting = std::make_unique<RestingPoints>(std::move(now));
   }
   points = resting->points;
+  // Few, most often: looked for one by one, not in the tree.
   for (std::uint32_t i = 0; i < view.alive.size(); ++i)
     if (view.alive[i] && !view.sleeping[i]) surface.addNear(i, points);
   keepFour(points);

@@ -57,7 +57,7 @@ struct BodyState {
   std::vector<float> slowPeak;
   std::vector<std::uint8_t> slowTurned;
   std::uint32_t sleepingCount = 0;
-  std::uint64_t sleepChanges = 0;  ///< how often it has been another set of elements that sleep
+  std::uint64_t sleepChanges = 0;  ///< counts on whenever other elements may sleep
   double energyAsleep = 0;         ///< in the springs of those [J]
   double massAsleep = 0;           ///< of those [kg]
 

@@ -32,7 +32,7 @@ struct BodyView {
   bool asleep = false;
   std::uint32_t sleepingCount = 0;
   std::uint32_t anchorsIntact = 0;
-  std::uint64_t sleepChanges = 0;  ///< how often it has been another set of elements that sleep
+  std::uint64_t sleepChanges = 0;  ///< counts on whenever other elements may sleep
 
   /// Nothing of it moves.
   bool lies() const { return asleep || sleepingCount + crushed == alive.size(); }
