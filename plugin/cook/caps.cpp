@@ -25,17 +25,6 @@ void addStretch(const VoronoiEdge& edge, const InsideStretch& stretch, std::vect
   outline.push_back({i, k, stretch.to, stretch.from, false});
 }
 
-void addCuts(const SurfacePieces& pieces, const SurfacePolygon& polygon, std::vector<OutlineEdge>& outline) {
-  for (std::uint32_t c = 0; c < polygon.count; ++c) {
-    const std::uint32_t other = pieces.labels[polygon.first + c];
-    if (other >= kSideLabel || other < polygon.site) continue;
-    const std::uint32_t from = pieces.vertices[polygon.first + c];
-    const std::uint32_t to = pieces.vertices[polygon.first + (c + 1) % polygon.count];
-    outline.push_back(
-        {polygon.site, other, to, from, true});  // the cap is the polygon's neighbour in the cell's mesh
-  }
-}
-
 // Chains the outline of one face, sorted by `from`, into loops.
 std::vector<Loop> chain(std::span<const OutlineEdge> outline) {
   std::vector<Loop> loops;
@@ -82,9 +71,10 @@ void buildCap(const VoronoiDiagram& diagram, std::span<const OutlineEdge> outlin
 Caps buildCaps(const VoronoiDiagram& diagram, const SurfacePieces& pieces,
                const std::vector<InsideStretch>& stretches, const VertexPool& pool) {
   std::vector<OutlineEdge> outline;
-  outline.reserve(3 * stretches.size());
+  outline.reserve(3 * stretches.size() + pieces.cuts.size());
   for (const InsideStretch& stretch : stretches) addStretch(diagram.edges[stretch.edge], stretch, outline);
-  for (const SurfacePolygon& polygon : pieces.polygons) addCuts(pieces, polygon, outline);
+  for (const SurfacePieces::Cut& cut : pieces.cuts)  // the cap is the polygon's neighbour in the cell's mesh
+    outline.push_back({cut.first, cut.second, cut.to, cut.from, true});
   std::sort(outline.begin(), outline.end(), [](const OutlineEdge& a, const OutlineEdge& b) {
     return std::tie(a.first, a.second, a.from, a.to) < std::tie(b.first, b.second, b.from, b.to);
   });

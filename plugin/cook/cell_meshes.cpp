@@ -42,7 +42,7 @@ class CellMeshBuilder {
     m_asset.vertices.reserve(m_diagram.vertices.size());
     for (std::size_t v = 0; v < m_diagram.vertices.size(); ++v)
       m_asset.vertices.push_back({m_diagram.vertices[v].cast<float>(), m_diagram.vertexSites[v]});
-    m_diagram.vertexSites = {};
+    m_diagram.vertexSites = std::vector<std::array<std::uint32_t, 4>>();  // `= {}` would keep the memory
   }
 
   void buildCell(std::uint32_t cell) {
@@ -183,9 +183,8 @@ class CellMeshBuilder {
       const SurfacePolygon& polygon = surface.polygons[m_queue[at]];
       addSums(polygon, sums);
       for (std::uint32_t k = 0; k < polygon.count; ++k) {
-        const std::uint32_t label = surface.labels[polygon.first + k];
-        if (label < kSideLabel) continue;
-        takeOn(m_mesh.neighbours[polygon.triangle][label - kSideLabel], orientation);
+        const std::uint8_t side = surface.sides[polygon.first + k];
+        if (side != kCutEdge) takeOn(m_mesh.neighbours[polygon.triangle][side], orientation);
       }
       takeOn(polygon.triangle, orientation);
     }

@@ -48,8 +48,9 @@ RestrictedVoronoi cut(const CheckedMesh& mesh, std::vector<Eigen::Vector3d> site
   VertexPool pool(mesh, diagram);
   result.surface = cutSurface(mesh, diagram, pool);
   const std::vector<InsideStretch> stretches = insideStretches(diagram, result.surface, pool);
-  result.surface.hits = {};
+  result.surface.hits = std::vector<SurfacePieces::Hit>();  // `= {}` would keep the memory
   result.caps = buildCaps(diagram, result.surface, stretches, pool);
+  result.surface.cuts = std::vector<SurfacePieces::Cut>();
   result.sites = std::move(sites);
   result.vertices = pool.takePositions();
   result.vertexSites = pool.takeSites();

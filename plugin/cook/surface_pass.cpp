@@ -110,7 +110,14 @@ class TriangleCutter {
     for (std::size_t c = 0; c < count; ++c) {
       const std::uint32_t before = m_polygon[c == 0 ? count - 1 : c - 1].label;
       m_pieces.vertices.push_back(vertexBetween(triangle, site, before, m_polygon[c]));
-      m_pieces.labels.push_back(m_polygon[c].label);
+      const std::uint32_t label = m_polygon[c].label;
+      m_pieces.sides.push_back(label < kSideLabel ? kCutEdge : std::uint8_t(label - kSideLabel));
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::uint32_t other = m_polygon[c].label;
+      if (other >= kSideLabel || other < site) continue;
+      const std::uint32_t* vertices = m_pieces.vertices.data() + first;
+      m_pieces.cuts.push_back({site, other, vertices[c], vertices[c + 1 == count ? 0 : c + 1]});
     }
     m_pieces.polygons.push_back({triangle, site, first, std::uint32_t(count)});
   }

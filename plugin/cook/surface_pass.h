@@ -56,18 +56,22 @@ class VertexPool {
 struct SurfacePolygon {
   std::uint32_t triangle;
   std::uint32_t site;
-  std::uint32_t first;  ///< into SurfacePieces::vertices and ::labels
+  std::uint32_t first;  ///< into SurfacePieces::vertices and ::sides
   std::uint32_t count;
 };
 
-/// Labels from here on mean "side s of the triangle"; smaller ones name the site behind that edge of the
-/// polygon.
+/// What labels an edge of a piece of a triangle: from here on "side s of the triangle"; smaller ones name the
+/// site behind the edge.
 inline constexpr std::uint32_t kSideLabel = 0xfffffff0u;
+
+/// In SurfacePieces::sides: an edge that is no part of a side of the triangle.
+inline constexpr std::uint8_t kCutEdge = 3;
 
 struct SurfacePieces {
   std::vector<SurfacePolygon> polygons;  ///< grouped by triangle
   std::vector<std::uint32_t> vertices;   ///< into the pool
-  std::vector<std::uint32_t> labels;     ///< of the edge that leaves the vertex
+  /// The side of the triangle on which the edge that leaves the vertex lies, or kCutEdge.
+  std::vector<std::uint8_t> sides;
   /// Where a Voronoi edge passes the surface.
   struct Hit {
     std::array<std::uint32_t, 3> sites;  ///< ascending
@@ -75,6 +79,12 @@ struct SurfacePieces {
     bool leaving;  ///< the edge leaves the solid here, followed from VoronoiEdge::from to ::to
   };
   std::vector<Hit> hits;
+  /// Where the face between two cells meets the surface: the edge of the first one's polygon.
+  struct Cut {
+    std::uint32_t first, second;  ///< sites, ascending
+    std::uint32_t from, to;       ///< into the pool
+  };
+  std::vector<Cut> cuts;
 };
 
 SurfacePieces cutSurface(const CheckedMesh& mesh, const VoronoiDiagram& diagram, VertexPool& pool);
