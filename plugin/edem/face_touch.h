@@ -34,8 +34,9 @@ struct FaceHit {
   double weight = 0;                                  ///< stiffness over k_n
   double withheld = 0;                                ///< share of its force that is, by withhold()
   double yielded = 0;                                 ///< that it gave way by in this step [m]
-  double beyond = 0;                                  ///< of a corner: out of the cell by a covered face [m]
-  CornerName corner;                                  ///< that of the rigid body's that is in the element
+  double nearer = 0;  ///< that it came deeper by in this step, at most all [m]
+  double beyond = 0;  ///< of a corner: out of the cell by a covered face [m]
+  CornerName corner;  ///< that of the rigid body's that is in the element
 };
 
 /// An element in the frame of a rigid body.
@@ -73,7 +74,7 @@ class FaceTouch {
   /// Notes at every hit what it withholds of its force by the speed at which the fragment parts there, see
   /// withheld in fragment_motion.h.
   void withhold(const ContactLaw<double>& law, const PartingMotion& fragment);
-  std::span<const FaceHit> hits() const { return m_hits; }
+  std::span<FaceHit> hits() { return m_hits; }
   /// Depth of the deepest of them and of the points that will press with the least turn, as those of a face
   /// that stands upright in a plane do; 0: none [m].
   double deepest() const { return m_deepest; }
@@ -167,12 +168,12 @@ struct FacePress {
   double weight = 0;                                 // sum of the hits' weight times depth; 0: no contact
   double full = 0;                                   // the same before any is withheld [N]
   double energy = 0;                                 // [J]
-
-  /// Each hit has its share of the law's dashpot, less at a lever, where the
-  /// element is lighter, never pulls, and withholds what was noted at it.
-  FacePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, const ElementMotion& motion,
-            const Steps& steps);
 };
+
+/// Each hit has its share of the law's dashpot, less at a lever, where the element is lighter, never pulls,
+/// and withholds what was noted at it.
+FacePress facePress(std::span<const FaceHit> hits, const ContactLaw<double>& law, const ElementMotion& motion,
+                    const Steps& steps);
 
 /// Sum of the weights that corners or the sphere of the body may have within `reach` of `at` (frame of the
 /// rigid body) [-].

@@ -106,12 +106,12 @@ struct FaceStep {
   double way;    // further than any point of the element comes [m]
 
   double nearer(const FaceHit& hit) const {
-    return -moved * hit.normal.dot(motion.centre + motion.spin.cross(hit.at));
+    return -moved * scalarDot(hit.normal, velocityAt(hit.at, motion.centre, motion.spin));
   }
   /// What its weight has grown by.
   double heavier(const FaceHit& hit) const {
-    return -moved *
-           (hit.turning.dot(motion.spin) + hit.sliding.dot(motion.centre + motion.spin.cross(hit.at)));
+    return -moved * (scalarDot(hit.turning, motion.spin) +
+                     scalarDot(hit.sliding, velocityAt(hit.at, motion.centre, motion.spin)));
   }
   ContactYield<double> yieldOf(const FaceHit& hit, double sunk) const {
     return {hit.weight * law.stiffness, hit.depth - sunk, nearer(hit), hit.withheld};
@@ -122,13 +122,13 @@ struct FaceStep {
 // way, sum K (x + D - y) y / 2 from the depths x to D, is what the withheld force gains on those that near,
 // sum K way withheld (x + D - y) / 2, and on those that grow heavier. The same as ContactYield for one hit of
 // one weight. Returns it [J].
-double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& memory) {
+double giveWay(std::span<FaceHit> hits, const FaceStep& step, FaceMemory& memory) {
   if (std::none_of(hits.begin(), hits.end(), [](const FaceHit& hit) { return hit.withheld > 0; })) return 0;
   double a = 0, b = 0, c = 0;  // a y^2 - b y + c = 0
-  for (const FaceHit& hit : hits) {
+  for (FaceHit& hit : hits) {
     const double depth = hit.depth - memory.sunk;
     if (!(depth > 0)) continue;
-    const double way = std::min(step.nearer(hit), depth), nears = std::max(0.0, way);
+    const double way = hit.nearer = std::min(step.nearer(hit), depth), nears = std::max(0.0, way);
     a += hit.weight;
     b += hit.weight * (2 * depth - way + hit.withheld * nears);
     c += hit.withheld *
@@ -140,8 +140,8 @@ double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& 
   for (const FaceHit& hit : hits) {
     const double depth = hit.depth - memory.sunk;
     if (!(depth > 0)) continue;
-    const double way = std::min(step.nearer(hit), depth), left = std::max(0.0, depth - yielded);
-    lost += 0.5 * step.law.stiffness * hit.weight * (depth - way + left) * (depth - left);
+    const double left = std::max(0.0, depth - yielded);
+    lost += 0.5 * step.law.stiffness * hit.weight * (depth - hit.nearer + left) * (depth - left);
   }
   memory.sunk += yielded;
   memory.yielded = yielded;
@@ -152,7 +152,7 @@ double giveWay(std::span<const FaceHit> hits, const FaceStep& step, FaceMemory& 
 // just been exposed, for what they cannot have come in the last step; and that by which they gave way. It
 // gives way as they leave. They have one of it, so that all give way together. Returns what the springs lost
 // [J].
-double sinkFaces(std::span<const FaceHit> hits, double deepest, double exposed, const FaceStep& step,
+double sinkFaces(std::span<FaceHit> hits, double deepest, double exposed, const FaceStep& step,
                  FaceMemory& memory) {
   const bool fresh = memory.deepest <= 0 || memory.area != exposed;
   const double free = memory.deepest + step.way;
@@ -263,7 +263,7 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
   out.slipped =
       sink(c, body, corners, {law, own, moved, 2 * moved * fastest}, fragment, side, turn, work.faces);
-  const FacePress press(work.faces.hits(), law, own, {work.moved, work.steps.next});
+  const FacePress press = facePress(work.faces.hits(), law, own, {work.moved, work.steps.next});
   if (!(press.weight > 0)) {
     out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);
     return false;
