@@ -318,6 +318,7 @@ void Destruction::Impl::followElements() {
 void Destruction::Impl::finish(double dt) {
   BT_PROFILE("Rubble finish");
   if (!advanced) advance(dt);
+  pushOut.restore(*world.getDispatcher());
   for (DestructibleBody* body : bodies) {
     body->impl().shape->setHidden(false);
     body->impl().near.clear();

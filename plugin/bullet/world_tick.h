@@ -11,6 +11,7 @@
 #include "bullet/energy_balance.h"
 #include "bullet/joints.h"
 #include "bullet/ledger_book.h"
+#include "bullet/push_out.h"
 #include "bullet/rigid_proxies.h"
 #include "bullet/soft_contacts.h"
 #include "debris/debris_system.h"
@@ -97,6 +98,7 @@ struct Destruction::Impl {
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
   bullet::EnergyBalance energyBalance;
+  bullet::PushOut pushOut;
 
  private:
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
