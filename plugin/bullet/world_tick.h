@@ -37,6 +37,12 @@ struct TouchedBody {
   btTransform freeEnd = btTransform::getIdentity();
 };
 
+/// Where a dynamic body was when the tick was over.
+struct LeftPlace {
+  const btCollisionObject* body = nullptr;  ///< compared only
+  btTransform at;
+};
+
 /// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.
 struct Reaction {
   const btCollisionObject* body = nullptr;  ///< compared only
@@ -79,6 +85,7 @@ struct Destruction::Impl {
   std::vector<bullet::TouchedBody> touched;
   std::vector<edem::RigidProxy> proxies;              ///< beside `touched`
   std::vector<bullet::Reaction> reactions;            ///< of the last tick
+  std::vector<bullet::LeftPlace> leftPlaces;          ///< of what was touched in the last tick
   std::vector<bullet::HeldJoint> joints, lastJoints;  ///< the application's, to bodies of elements
   bullet::SoftContacts softContacts;
   bool advanced = false;  ///< in this tick
@@ -121,6 +128,9 @@ struct Destruction::Impl {
   void fixPositions();
   void noteReactions(double dt);
   bool isHeld(const btCollisionObject& body) const;
+  void noteLeftPlaces();
+  /// Since the last tick, by its transform.
+  bool wasPlaced(const btCollisionObject& body) const;
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();
