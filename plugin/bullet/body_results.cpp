@@ -118,6 +118,18 @@ void Destruction::Impl::fixPositions() {
   }
 }
 
+void Destruction::Impl::noteLeftPlaces() {
+  leftPlaces.clear();
+  for (const bullet::TouchedBody& t : touched)
+    if (t.rigid) leftPlaces.push_back({t.object, t.rigid->getWorldTransform()});
+}
+
+bool Destruction::Impl::wasPlaced(const btCollisionObject& body) const {
+  return std::any_of(leftPlaces.begin(), leftPlaces.end(), [&](const bullet::LeftPlace& left) {
+    return left.body == &body && !(left.at == body.getWorldTransform());
+  });
+}
+
 // Whether Bullet's own contacts and joints bear a body at rest: those know where it belongs. Where nothing
 // has weight nothing is borne: what is slow there turns back on the elements.
 bool Destruction::Impl::isHeld(const btCollisionObject& body) const {

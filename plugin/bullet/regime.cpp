@@ -153,6 +153,7 @@ void Destruction::Impl::thawStruck(double dt) {
   std::sort(struck.begin(), struck.end(),
             [](const DestructibleBody* a, const DestructibleBody* b) { return a->id() < b->id(); });
   for (DestructibleBody* body : struck) thaw(*body, dt);
+  if (wholes > 0) pushOut.limit(world, dt);
 }
 
 // The elements take over in this very tick; Bullet's part of the body follows when its tick is over.

@@ -208,6 +208,7 @@ void Destruction::Impl::gatherProxies(double dt) {
       t.object = object;
       if (proxy.isDynamic()) {
         t.rigid = btRigidBody::upcast(object);
+        proxy.placed = t.rigid && wasPlaced(*object);
         t.link = link;
         t.velocity = toBullet(proxy.velocity);
         t.spin = toBullet(proxy.spin);
@@ -318,6 +319,7 @@ void Destruction::Impl::followElements() {
 void Destruction::Impl::finish(double dt) {
   BT_PROFILE("Rubble finish");
   if (!advanced) advance(dt);
+  pushOut.restore(*world.getDispatcher());
   for (DestructibleBody* body : bodies) {
     body->impl().shape->setHidden(false);
     body->impl().near.clear();
@@ -327,6 +329,7 @@ void Destruction::Impl::finish(double dt) {
     lateImpulses();
     noteReactions(dt);
     fixPositions();
+    noteLeftPlaces();
     takeJoints(dt);
     writeAppliedImpulses();
     const base::ScopeTimer timer(times.fracture);

@@ -11,6 +11,7 @@
 #include "bullet/energy_balance.h"
 #include "bullet/joints.h"
 #include "bullet/ledger_book.h"
+#include "bullet/push_out.h"
 #include "bullet/rigid_proxies.h"
 #include "bullet/soft_contacts.h"
 #include "debris/debris_system.h"
@@ -34,6 +35,12 @@ struct TouchedBody {
   btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
   /// Where the body would be at the end of the tick under its impulse as a whole.
   btTransform freeEnd = btTransform::getIdentity();
+};
+
+/// Where a dynamic body was when the tick was over.
+struct LeftPlace {
+  const btCollisionObject* body = nullptr;  ///< compared only
+  btTransform at;
 };
 
 /// What held a body at rest in the last tick: Bullet's contacts and joints, as acceleration.
@@ -78,6 +85,7 @@ struct Destruction::Impl {
   std::vector<bullet::TouchedBody> touched;
   std::vector<edem::RigidProxy> proxies;              ///< beside `touched`
   std::vector<bullet::Reaction> reactions;            ///< of the last tick
+  std::vector<bullet::LeftPlace> leftPlaces;          ///< of what was touched in the last tick
   std::vector<bullet::HeldJoint> joints, lastJoints;  ///< the application's, to bodies of elements
   bullet::SoftContacts softContacts;
   bool advanced = false;  ///< in this tick
@@ -97,6 +105,7 @@ struct Destruction::Impl {
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
   bullet::EnergyBalance energyBalance;
+  bullet::PushOut pushOut;
 
  private:
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
@@ -119,6 +128,9 @@ struct Destruction::Impl {
   void fixPositions();
   void noteReactions(double dt);
   bool isHeld(const btCollisionObject& body) const;
+  void noteLeftPlaces();
+  /// Since the last tick, by its transform.
+  bool wasPlaced(const btCollisionObject& body) const;
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();

@@ -18,6 +18,12 @@ Twist response(const RigidProxy& proxy, const Wrench& impulse) {
           turn * (proxy.inverseInertia.asDiagonal() * (turn.transpose() * impulse.torque))};
 }
 
+// Way of a point of the body from a place to the one that it has [m].
+double furthest(const RigidProxy& proxy, const RigidPose& from) {
+  return (proxy.position - from.position).norm() +
+         from.orientation.angularDistance(proxy.orientation) * proxy.reach();
+}
+
 }  // namespace
 
 RigidPose poseOf(const RigidProxy& proxy) {
@@ -46,7 +52,7 @@ double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift) {
   return (proxy.velocity - drift).norm() + proxy.spin.norm() * proxy.reach();
 }
 
-void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap,
                  std::vector<RigidState>& states) {
   states.assign(proxies.size(), {});
   for (std::size_t p = 0; p < proxies.size(); ++p) {
@@ -58,13 +64,14 @@ void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
     proxy.given = proxy.givenNext = proxy.surplus = 0;
     if (last != before.end()) {
       state.left = last->left;
-      state.moved = true;
+      state.leapt = proxy.placed && furthest(proxy, last->left) > leap;
+      state.moved = !state.leapt;
       state.still = !proxy.isDynamic() && proxy.velocity.isZero(0) && proxy.spin.isZero(0) &&
                     proxy.position == last->left.position &&
                     proxy.orientation.coeffs() == last->left.orientation.coeffs();
       state.pressed = last->size;
       state.surplusNext = last->surplusNext;
-      state.corners = std::move(last->corners);
+      if (!state.leapt) state.corners = std::move(last->corners);
     }
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();

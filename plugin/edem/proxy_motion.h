@@ -19,8 +19,9 @@ void setPose(RigidProxy& proxy, const RigidPose& pose);
 double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift);
 
 /// Makes the proxies of a new tick ready to collect. `states` becomes theirs: what their contacts remember is
-/// taken from `before`, that of the last tick, by their keys.
-void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before,
+/// taken from `before`, that of the last tick, by their keys; not of one that the application has put further
+/// away than `leap` [m].
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap,
                  std::vector<RigidState>& states);
 
 /// Moves the proxies (symplectic Euler) by the forces in their states and books what passed between them and

@@ -63,6 +63,7 @@ struct RigidState {
   std::uint64_t key = 0;
   RigidPose left;      ///< when the last substep was over
   bool moved = false;  ///< by the host since
+  bool leapt = false;  ///< put elsewhere by the application since: nothing that touched it does
   bool still = false;  ///< does not move, and has not since the last tick
   /// On the rigid body in this substep, and the part of it that is lost energy [N], [N m].
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();

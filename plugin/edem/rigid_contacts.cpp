@@ -20,11 +20,13 @@ constexpr double kBlow = 1e-3;
 }  // namespace
 
 template <class Real>
-void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies) {
+void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, double leap) {
   m_lists.keep(m_states);
   m_proxies = proxies;
   std::swap(m_before, m_states);
-  takeProxies(proxies, m_before, m_states);
+  takeProxies(proxies, m_before, leap, m_states);
+  for (const RigidState& state : m_states)
+    if (state.leapt) m_lists.part(state.key);
 }
 
 template <class Real>
@@ -216,8 +218,10 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       body.work.touchesBegun[c.element] = 2;
     RigidTouch t;
     const bool touched = c.touching;
+    // What has been put there has come no way.
+    const Steps own{m_states[c.proxy].leapt ? 0 : steps.moved, steps.next};
     c.touching = m_states[c.proxy].moved ? touchMoved(c, body, steps, kick, resting, books, t)
-                                         : touch(c, body, m_corners, steps, resting, t);
+                                         : touch(c, body, m_corners, own, resting, t);
     c.memory.energy = t.energy;
     slipped += t.slipped;
     if (!c.touching) {
@@ -241,7 +245,7 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
       if (c && bodies[c->body]->state.alive[c->element]) slipped += corner.lostOutside(steps.moved);
     });
   books.dissipated.add(-slipped, 0);
-  for (RigidState& s : m_states) s.moved = false;
+  for (RigidState& s : m_states) s.moved = s.leapt = false;
 }
 
 template <class Real>

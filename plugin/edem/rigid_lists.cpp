@@ -57,6 +57,13 @@ double RigidLists<Real>::end(std::uint32_t id) {
   return energy;
 }
 
+// As of one that is not there any more: what sleeps at it wakes.
+template <class Real>
+void RigidLists<Real>::part(std::uint64_t key) {
+  for (Kept& k : m_kept)
+    if (k.key == key) k.key = 0;
+}
+
 template <class Real>
 void RigidLists<Real>::build(Bodies bodies, const PairLists<Real>& lists, std::span<const RigidProxy> proxies,
                              std::span<RigidState> states) {

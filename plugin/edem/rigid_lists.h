@@ -43,6 +43,8 @@ class RigidLists {
 
   /// Ends all contacts of a body, between two ticks. Returns the energy that was in them [J].
   double end(std::uint32_t id);
+  /// Ends what is remembered of contacts at a rigid body, once the lists have ended.
+  void part(std::uint64_t key);
   /// In the contacts of what sleeps [J].
   double keptEnergy() const;
   /// That of contacts that have ended since the last call [J].

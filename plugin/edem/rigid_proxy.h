@@ -39,6 +39,8 @@ struct RigidProxy {
   std::vector<Collider> parts;
   std::vector<std::uint32_t> spared;  ///< bodies whose elements it does not touch (ids)
 
+  bool placed = false;  ///< the application has put it elsewhere since the last tick: no way, but a place
+
   std::vector<std::uint32_t> bears;  ///< bodies whose anchors hold to it (ids): it touches only what is free
 
   // Collected by the substeps.

@@ -22,13 +22,19 @@ namespace {
 // Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
 constexpr double kSkinRadii = 0.5;
 
+// Of the elements of all bodies; infinite where there are none [m].
+template <class Real>
+double smallestRadius(const World<Real>& w) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& body : w.bodies) radius = std::min(radius, double(body->constants->radius));
+  return radius;
+}
+
 // `left`: of the tick [s].
 template <class Real>
 void list(World<Real>& w, double left) {
   const base::ScopeTimer timer(w.report.listing);
-  double radius = std::numeric_limits<double>::infinity();
-  for (const auto& body : w.bodies) radius = std::min(radius, double(body->constants->radius));
-  w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * radius);
+  w.lists.build(w.bodies, w.bodies.empty() ? 0 : kSkinRadii * smallestRadius(w));
   wakeDisturbed(w);
   w.rigid.build(w.bodies, w.lists);
   findDrifts(std::span<const std::unique_ptr<Body<Real>>>(w.bodies), w.rigid.proxies(), w.lists.skin(), left,
@@ -207,7 +213,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.report.warning.clear();
   if (!std::isfinite(dt)) w.failure = "the time step is not finite";
   if (!w.failure.empty() || !(dt > 0)) return;
-  w.rigid.beginTick(proxies);
+  w.rigid.beginTick(proxies, smallestRadius(w));
   w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
   hardenContacts(w);

@@ -1,7 +1,9 @@
 // What an application does to a body of elements by Bullet's own calls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "bullet/bullet_world.h"
@@ -141,6 +143,41 @@ TEST(HostMoves, WhatIsPutDeepIntoTheGroundIsNotThrown) {
     EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
     EXPECT_EQ(w.destruction->failure(), "");
     EXPECT_EQ(w.destruction->ledger().makers, 0u);
+  }
+}
+
+// It lies on them, so that its contacts know it; then it is put into their middle, with no speed. A place
+// that they have not come to by a way gives them nothing.
+TEST(HostMoves, ARigidBodyThatIsPutIntoElementsIsNotThrown) {
+  for (const double mass : {0.01, 1.0, 100.0}) {
+    SCOPED_TRACE(mass);
+    BulletWorld w;
+    DestructibleBodyDef def;
+    def.asset = std::make_shared<const Asset>(gridAsset({.cubes = {4, 1, 4}, .edge = 0.1}));
+    def.material = material("concrete_soft");
+    w.destruction->addBody(def);
+    btBoxShape shape({btScalar(0.3), btScalar(0.02), btScalar(0.3)});
+    btRigidBody* plate = w.add(btScalar(mass), shape, {btScalar(0.2), btScalar(0.12), btScalar(0.2)});
+    const btScalar dt = btScalar(1) / 240;
+    for (int tick = 0; tick < 60; ++tick) w.world.stepSimulation(dt, 1, dt);
+    btTransform at = plate->getWorldTransform();
+    at.getOrigin().setY(btScalar(0.05));
+    plate->setWorldTransform(at);
+    plate->setLinearVelocity({0, 0, 0});
+    plate->setAngularVelocity({0, 0, 0});
+    plate->activate();
+    const double before = w.destruction->ledger().exchanged;
+    double fastest = 0;
+    for (int tick = 0; tick < 48; ++tick) {
+      w.world.stepSimulation(dt, 1, dt);
+      fastest = std::max(fastest, double(plate->getLinearVelocity().length()));
+    }
+    // At most what its weight gives over a millimetre.
+    EXPECT_LT(fastest, std::sqrt(2 * 9.81 * 1e-3));
+    EXPECT_LT(w.destruction->ledger().exchanged - before, mass * 9.81 * 1e-3);
+    EXPECT_EQ(w.destruction->counts().springsBroken, 0u);
+    EXPECT_EQ(w.destruction->failure(), "");
+    w.clear();
   }
 }
 

@@ -23,6 +23,11 @@ INSTANTIATE_TEST_SUITE_P(OnceBroken, Stability, testing::Values(57, 399, 86, 158
 
 // Beyond the 500 of the table: what falls from rest by many radii in a tick is followed.
 INSTANTIATE_TEST_SUITE_P(Falls, Stability, testing::Values(901, 1087));
+// Whole bodies that Bullet pushed out faster than they came: short ticks after long ones, and on top of
+// restitution.
+INSTANTIATE_TEST_SUITE_P(PushedOut, Stability, testing::Values(776, 1002, 1167));
+// A light body that lay on elements and is put into them.
+INSTANTIATE_TEST_SUITE_P(PutIn, Stability, testing::Values(578, 1591));
 // Elements that are pressed so deep into the ground, or came so far into it in a substep, that their contacts
 // make energy: the run stops and says so.
 INSTANTIATE_TEST_SUITE_P(Makes, Stability, testing::Values(569, 891, 1146, 1151));
