@@ -5,7 +5,7 @@
 namespace rubble::demo {
 
 ReportCase columnBlowCase() {
-  // The solid is not convex: its elements cannot wait until it is struck.
+  // Its elements from the start: the blow is all that happens.
   return sceneCase(
       {.name = "column_blow",
        .what = "The scene column after 0.3 s: a ball of 33.9 kg has gone at 10 m/s through a shaft of 0.26 m",

@@ -86,7 +86,7 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
   const edem::BodyView view = solver->view(own.id);
   own.whole = bullet::wholeShape(*own.asset, view.mass, view.inertia);
   own.held = bodyDef.anchored && !own.asset->anchors.empty();
-  const char* reason = own.whole.shape ? nullptr : "its solid is not convex";
+  const char* reason = own.whole.shape ? nullptr : "few convex parts do not fit its solid";
   if (!reason && !solver->park(own.id).has_value()) reason = "it is not one piece";
   if (reason) {
     if (def.log) def.log(LogLevel::Info, own.name + ": cannot be Bullet's until it is struck: " + reason);

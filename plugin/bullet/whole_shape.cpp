@@ -1,14 +1,16 @@
 #include "bullet/whole_shape.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
-#include <LinearMath/btConvexHullComputer.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bullet/convert.h"
+#include "bullet/convex_parts.h"
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -21,32 +23,11 @@ constexpr double kBoxExcess = 1e-3;
 // Bullet keeps hulls apart by their margin, which is seen [m]; and as a share of the thinnest side.
 constexpr double kMargin = 1e-3, kMarginShare = 0.02;
 
-struct Hull {
-  std::vector<Eigen::Vector3d> points;
-  double volume = 0;
-};
-
-Hull hullOf(const std::vector<CellVertex>& vertices) {
-  std::vector<btVector3> input;
-  for (const CellVertex& v : vertices) input.push_back(toBullet(Eigen::Vector3d(v.position.cast<double>())));
-  Hull hull;
-  btConvexHullComputer computer;
-  computer.compute(&input[0][0], int(sizeof(btVector3)), int(input.size()), 0, 0);
-  for (int i = 0; i < computer.vertices.size(); ++i) hull.points.push_back(toEigen(computer.vertices[i]));
-  if (hull.points.empty()) return hull;
-  const Eigen::Vector3d apex = hull.points[0];
-  for (int f = 0; f < computer.faces.size(); ++f) {
-    const auto* first = &computer.edges[computer.faces[f]];
-    const Eigen::Vector3d corner = hull.points[std::size_t(first->getSourceVertex())] - apex;
-    for (const auto* e = first->getNextEdgeOfFace(); e->getNextEdgeOfFace() != first;
-         e = e->getNextEdgeOfFace()) {
-      const Eigen::Vector3d a = hull.points[std::size_t(e->getSourceVertex())] - apex,
-                            b = hull.points[std::size_t(e->getTargetVertex())] - apex;
-      hull.volume += std::abs(corner.dot(a.cross(b))) / 6;  // seen from a corner all faces turn one way
-    }
-  }
-  return hull;
-}
+// Convex parts are added until they are larger by no more than the first share, or so many. A column is then
+// 4, a ring 11 to 16 (3.7 %), the statue of the scenes 16 (3.5 %). What is larger by more than the last stays
+// elements.
+constexpr double kPartsExcess = 0.03, kMostPartsExcess = 0.1;
+constexpr int kMostParts = 16;
 
 Eigen::Matrix3d inertiaOf(const Asset& asset, std::span<const double> masses,
                           std::span<const double> inertias, const Eigen::Vector3d& centre) {
@@ -57,6 +38,29 @@ Eigen::Matrix3d inertiaOf(const Asset& asset, std::span<const double> masses,
            masses[i] * arm * arm.transpose();
   }
   return sum;
+}
+
+std::unique_ptr<btConvexHullShape> hullShape(const ConvexHull& hull, const Eigen::Isometry3d& frame) {
+  auto shape = std::make_unique<btConvexHullShape>();
+  const Eigen::Isometry3d into = frame.inverse();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : hull.points) {
+    box.extend(p);
+    shape->addPoint(toBullet(Eigen::Vector3d(into * p)), false);
+  }
+  shape->setMargin(btScalar(std::min(kMargin, kMarginShare * box.sizes().minCoeff())));
+  shape->recalcLocalAabb();
+  return shape;
+}
+
+// The parts are in the compound's own frame.
+void setParts(const std::vector<ConvexHull>& hulls, WholeShape& whole) {
+  auto compound = std::make_unique<btCompoundShape>(true, int(hulls.size()));
+  for (const ConvexHull& hull : hulls) {
+    whole.parts.push_back(hullShape(hull, whole.frame));
+    compound->addChildShape(btTransform::getIdentity(), whole.parts.back().get());
+  }
+  whole.shape = std::move(compound);
 }
 
 }  // namespace
@@ -71,11 +75,17 @@ WholeShape wholeShape(const Asset& asset, std::span<const double> masses, std::s
     volume += asset.volumes[i];
   }
   centre /= whole.mass;
-  const Hull hull = hullOf(asset.vertices);
-  if (!(hull.volume > 0) || hull.volume > (1 + kHullExcess) * volume) return whole;
-
+  std::vector<Eigen::Vector3d> vertices;
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : hull.points) box.extend(p);
+  for (const CellVertex& v : asset.vertices) box.extend(vertices.emplace_back(v.position.cast<double>()));
+  std::vector<ConvexHull> hulls = {convexHullOf(vertices)};
+  if (!(hulls[0].volume > 0)) return whole;
+  if (hulls[0].volume > (1 + kHullExcess) * volume) {
+    ConvexParts parts = convexParts(asset, kPartsExcess, kMostParts);
+    if (parts.excess > kMostPartsExcess) return whole;
+    hulls = std::move(parts.hulls);
+  }
+
   const Eigen::Matrix3d inertia = inertiaOf(asset, masses, inertias, centre);
   if (box.volume() < (1 + kBoxExcess) * volume) {
     whole.frame.translation() = box.center();
@@ -88,12 +98,10 @@ WholeShape wholeShape(const Asset& asset, std::span<const double> masses, std::s
     whole.frame.linear() = turn;
     whole.frame.translation() = centre;
     whole.inertia = toBullet(Eigen::Vector3d(axes.eigenvalues()));
-    auto shape = std::make_unique<btConvexHullShape>();
-    for (const Eigen::Vector3d& p : hull.points)
-      shape->addPoint(toBullet(Eigen::Vector3d(whole.frame.inverse() * p)), false);
-    shape->setMargin(btScalar(std::min(kMargin, kMarginShare * box.sizes().minCoeff())));
-    shape->recalcLocalAabb();
-    whole.shape = std::move(shape);
+    if (hulls.size() == 1)
+      whole.shape = hullShape(hulls[0], whole.frame);
+    else
+      setParts(hulls, whole);
   }
   whole.elementCentre = whole.frame.inverse() * centre;
   return whole;

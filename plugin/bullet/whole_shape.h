@@ -1,10 +1,11 @@
-// The shape of a whole body as one rigid body of Bullet's: box or convex hull.
+// The shape of a whole body as one rigid body of Bullet's: box, convex hull, or few of these.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "rubble/abi.h"
 #include "rubble/asset.h"
@@ -13,7 +14,8 @@ namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
 
 struct WholeShape {
-  std::unique_ptr<btConvexShape> shape;  ///< null: the solid is not convex
+  std::vector<std::unique_ptr<btConvexShape>> parts;  ///< of a compound; none of a convex solid
+  std::unique_ptr<btCollisionShape> shape;            ///< null: few convex parts do not fit the solid
   /// The rigid body's frame in the asset's: its origin, and its axes, which are those of the inertia.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   btVector3 inertia{0, 0, 0};  ///< [kg m^2]
