@@ -72,10 +72,10 @@ DestructionCounts Destruction::counts() const {
   DestructionCounts c;
   for (const DestructibleBody* body : m_impl->bodies) {
     const edem::BodyView view = m_impl->solver->view(body->id());
-    c.elements += std::uint32_t(view.alive.size());
+    c.elements += view.elements();
     c.crushed += view.crushed;
-    c.awake += view.asleep ? 0 : std::uint32_t(view.alive.size()) - view.crushed - view.sleepingCount;
-    c.springs += std::uint32_t(view.intact.size());
+    c.awake += view.asleep ? 0 : view.elements() - view.crushed - view.sleepingCount;
+    c.springs += view.springs();
     c.springsBroken += view.broken;
     c.fragments += view.fragments;
   }

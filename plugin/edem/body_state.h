@@ -39,6 +39,8 @@ struct BodyState {
   std::uint32_t crushedCount = 0;
   std::uint32_t brokenCount = 0;
   std::uint32_t anchorsIntact = 0;
+  /// What other bodies have of the constants' elements and springs since they split off (split.h).
+  std::uint32_t absentElements = 0, absentSprings = 0;
   AnchorBase base;        ///< what the far ends of anchors move with
   FarEnds<Real> farEnds;  ///< now
 

@@ -48,6 +48,11 @@ CornerMemory& CornerTable::add(const CornerName& name) {
   return m_all.emplace_back(CornerMemory{name, 0, 0, 0, 0});
 }
 
+void CornerTable::split(std::uint32_t body, std::span<const std::uint8_t> which, std::uint32_t newBody) {
+  for (CornerMemory& corner : m_all)
+    if (corner.body == body && which[corner.element]) corner.body = newBody;
+}
+
 void CornerTable::erase(std::uint32_t body) {
   if (std::erase_if(m_all, [body](const CornerMemory& m) { return m.body == body; }) > 0) index();
 }

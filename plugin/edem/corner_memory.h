@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "edem/face_touch.h"
@@ -38,6 +39,7 @@ class CornerTable {
  public:
   void clear();
   void erase(std::uint32_t body);
+  void split(std::uint32_t body, std::span<const std::uint8_t> which, std::uint32_t newBody);
   /// Null where there is none of that name.
   CornerMemory* find(const CornerName& name);
   /// Of a name that is not there yet. Valid until the next call.
@@ -66,6 +68,11 @@ class CornerMemories {
   }
   /// What they remember of a body.
   void forget(std::uint32_t body);
+  /// Elements marked in `which` of a body are another's now.
+  void split(std::uint32_t body, std::span<const std::uint8_t> which, std::uint32_t newBody) {
+    m_now.split(body, which, newBody);
+    m_before.split(body, which, newBody);
+  }
   /// Whether it was in that element at the last instant.
   bool wasIn(const CornerName& name, std::uint32_t body, std::uint32_t element) {
     const CornerMemory* last = m_before.find(name);

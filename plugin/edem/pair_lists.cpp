@@ -210,6 +210,39 @@ void PairLists<Real>::removeBody(std::uint32_t place) {
 }
 
 template <class Real>
+bool PairLists<Real>::touchOthers(std::uint32_t place, std::span<const std::uint8_t> which) const {
+  return std::ranges::any_of(m_lists, [&](const PairList<Real>& l) {
+    const bool one = l.first == place, other = l.second == place;
+    return std::ranges::any_of(l.entries, [&](const PairEntry& e) {
+      return e.touching && (one && which[e.first]) != (other && which[e.second]);
+    });
+  });
+}
+
+template <class Real>
+void PairLists<Real>::split(std::uint32_t place, std::span<const std::uint8_t> which, std::uint32_t newPlace,
+                            std::uint32_t id) {
+  if (place >= m_grids.size()) return;  // it has not been listed
+  PairList<Real>& old = m_lists[place];
+  PairList<Real> part, rest = {old.first, old.second, old.firstId, old.secondId, old.law, {}, {}, {}, 0, 0};
+  part.first = part.second = newPlace;
+  part.firstId = part.secondId = id;
+  part.law = old.law;
+  for (std::size_t k = 0; k < old.entries.size(); ++k) {
+    const bool leaves = which[old.entries[k].first];
+    if (leaves != bool(which[old.entries[k].second])) continue;  // near, without touching
+    PairList<Real>& to = leaves ? part : rest;
+    to.entries.push_back(old.entries[k]);
+    to.memory.push_back(old.memory[k]);
+    if (old.entries[k].touching) to.elastic += double(old.memory[k].energy);
+  }
+  old = std::move(rest);
+  // Lists within bodies stand first. Of those that have not been listed yet there are none.
+  m_lists.insert(m_lists.begin() + std::ptrdiff_t(m_grids.size()), std::move(part));
+  if (newPlace == m_grids.size()) m_grids.push_back(ElementGrid(m_grids[place]));
+}
+
+template <class Real>
 double PairLists<Real>::endContactsOf(std::uint32_t id) {
   double energy = 0;
   for (PairList<Real>& list : m_lists) {

@@ -88,7 +88,7 @@ template <class Real>
 bool mayPark(const Body<Real>& body) {
   const std::size_t anchors = body.state.springs.size() - body.constants->anchorBegin;
   return !body.state.asleep && body.state.fragmentCount == 1 && body.state.crushedCount == 0 &&
-         body.state.anchorsIntact == anchors;
+         body.state.absentElements == 0 && body.state.anchorsIntact == anchors;
 }
 
 template <class Real>

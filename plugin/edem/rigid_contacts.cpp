@@ -39,6 +39,12 @@ void RigidContacts<Real>::build(Bodies bodies, const PairLists<Real>& lists) {
 }
 
 template <class Real>
+void RigidContacts<Real>::split(std::uint32_t id, std::span<const std::uint8_t> which, std::uint32_t newId) {
+  m_lists.split(m_states, id, which, newId);
+  for (RigidState& state : m_states) state.corners.split(id, which, newId);
+}
+
+template <class Real>
 double RigidContacts<Real>::endContactsOf(std::uint32_t id) {
   const double energy = m_lists.end(id);
   // It may come back under the same name, elsewhere.

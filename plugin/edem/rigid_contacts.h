@@ -21,6 +21,9 @@ class RigidContacts {
   /// Takes the proxies of a new tick; what contacts remember stays, but for those at proxies that the
   /// application has put further away than `leap` [m].
   void beginTick(std::span<RigidProxy> proxies, double leap);
+  /// Elements marked in `which` of a body have become another, between two ticks: what is remembered of them
+  /// goes along.
+  void split(std::uint32_t id, std::span<const std::uint8_t> which, std::uint32_t newId);
   /// Lists the elements within their reach + skin of each proxy. Holds until elements or proxies moved half
   /// the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);

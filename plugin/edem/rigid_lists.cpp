@@ -57,6 +57,14 @@ double RigidLists<Real>::end(std::uint32_t id) {
   return energy;
 }
 
+template <class Real>
+void RigidLists<Real>::split(std::span<const RigidState> states, std::uint32_t id,
+                             std::span<const std::uint8_t> which, std::uint32_t newId) {
+  keep(states);
+  for (Kept& k : m_kept)
+    if (k.body == id && which[k.element]) k.body = newId;
+}
+
 // As of one that is not there any more: what sleeps at it wakes.
 template <class Real>
 void RigidLists<Real>::part(std::uint64_t key) {

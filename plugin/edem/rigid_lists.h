@@ -43,6 +43,9 @@ class RigidLists {
 
   /// Ends all contacts of a body, between two ticks. Returns the energy that was in them [J].
   double end(std::uint32_t id);
+  /// Ends the lists and gives what is remembered of the elements marked in `which` to another body.
+  void split(std::span<const RigidState> states, std::uint32_t id, std::span<const std::uint8_t> which,
+             std::uint32_t newId);
   /// Ends what is remembered of contacts at a rigid body, once the lists have ended.
   void part(std::uint64_t key);
   /// In the contacts of what sleeps [J].

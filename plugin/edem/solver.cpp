@@ -14,6 +14,7 @@
 #include "edem/parking.h"
 #include "edem/prestress.h"
 #include "edem/sleep.h"
+#include "edem/split.h"
 #include "edem/step_length.h"
 #include "edem/tick.h"
 #include "edem/world.h"
@@ -56,6 +57,21 @@ class SolverOf final : public Solver {
     m_world.listsStale = true;
   }
 
+  std::optional<std::uint32_t> split(std::uint32_t id, std::uint32_t root) override {
+    const auto place = std::uint32_t(placeOf(id)), newPlace = std::uint32_t(m_world.bodies.size());
+    Body<Real>& body = *m_world.bodies[place];
+    if (!maySplit(body, root)) return std::nullopt;
+    std::vector<std::uint8_t> leaves(body.elementCount());
+    for (std::size_t i = 0; i < leaves.size(); ++i) leaves[i] = body.state.fragment[i] == root;
+    if (m_world.lists.touchOthers(place, leaves)) return std::nullopt;
+    m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, root, m_nextId)));
+    m_prestressed.emplace_back();
+    m_world.lists.split(place, leaves, newPlace, m_nextId);
+    m_world.rigid.split(id, leaves, m_nextId);
+    m_world.listsStale = true;
+    return m_nextId++;
+  }
+
   void tick(double dt, const Eigen::Vector3d& gravity, std::span<RigidProxy> proxies) override {
     edem::tick(m_world, dt, gravity, proxies);
   }
@@ -76,10 +92,10 @@ class SolverOf final : public Solver {
 
   BodyView view(std::uint32_t id) const override {
     const Body<Real>& b = of(id);
-    return {b.state.alive,        b.state.intact,   b.state.fragment,      b.constants->mass,
-            b.constants->inertia, b.state.sleeping, b.state.fragmentCount, b.state.crushedCount,
-            b.state.brokenCount,  b.state.asleep,   b.state.sleepingCount, b.state.anchorsIntact,
-            b.state.sleepChanges};
+    return {b.state.alive,        b.state.intact,         b.state.fragment,      b.constants->mass,
+            b.constants->inertia, b.state.sleeping,       b.state.fragmentCount, b.state.crushedCount,
+            b.state.brokenCount,  b.state.asleep,         b.state.sleepingCount, b.state.anchorsIntact,
+            b.state.sleepChanges, b.state.absentElements, b.state.absentSprings};
   }
   Eigen::Vector3d position(std::uint32_t id, std::size_t i) const override { return of(id).worldPosition(i); }
   Eigen::Vector3d velocity(std::uint32_t id, std::size_t i) const override {

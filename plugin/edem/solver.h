@@ -32,10 +32,14 @@ struct BodyView {
   bool asleep = false;
   std::uint32_t sleepingCount = 0;
   std::uint32_t anchorsIntact = 0;
-  std::uint64_t sleepChanges = 0;  ///< counts on whenever other elements may sleep
+  std::uint64_t sleepChanges = 0;                       ///< counts on whenever other elements may sleep
+  std::uint32_t absentElements = 0, absentSprings = 0;  ///< other bodies have them, see Solver::split
 
+  /// Elements and springs that are its own, crushed and broken ones too.
+  std::uint32_t elements() const { return std::uint32_t(alive.size()) - absentElements; }
+  std::uint32_t springs() const { return std::uint32_t(intact.size()) - absentSprings; }
   /// Nothing of it moves.
-  bool lies() const { return asleep || sleepingCount + crushed == alive.size(); }
+  bool lies() const { return asleep || sleepingCount + crushed == elements(); }
 };
 
 class Solver {
@@ -50,6 +54,10 @@ class Solver {
   /// What came of the pre-stress of a body.
   virtual const PrestressResult& prestressed(std::uint32_t id) const = 0;
   virtual void removeBody(std::uint32_t id) = 0;
+  /// Makes a body of the fragment whose lowest element is `root`, between ticks: with the same constants, the
+  /// same numbers of elements and springs, and what its contacts remember. Returns its id; none for what is
+  /// anchored, sleeps, touches other elements, or is all of the body.
+  virtual std::optional<std::uint32_t> split(std::uint32_t id, std::uint32_t root) = 0;
 
   /// Advances all bodies that are awake by `dt` seconds. `proxies` move along and collect what they are
   /// given.
