@@ -63,6 +63,11 @@ Line line(int frame, const FragmentSplit& e) {
           {"root", e.root}, {"elements", e.elements},    {"mass_kg", e.mass}};
 }
 
+Line line(int frame, const BodySplit& e) {
+  return {{"frame", frame}, {"event", "body_split"},  {"body", e.body},   {"new_body", e.newBody},
+          {"root", e.root}, {"elements", e.elements}, {"mass_kg", e.mass}};
+}
+
 template <class Event>
 void writeAll(std::ostream& out, int frame, const std::vector<Event>& events) {
   for (const Event& event : events) out << line(frame, event).dump() << '\n';
@@ -75,6 +80,7 @@ void writeEvents(std::ostream& out, int frame, const Events& events) {
   writeAll(out, frame, events.elementsCrushed);
   writeAll(out, frame, events.debrisSpawned);
   writeAll(out, frame, events.fragmentsSplit);
+  writeAll(out, frame, events.bodiesSplit);
 }
 
 }  // namespace rubble::demo

@@ -109,6 +109,8 @@ struct Scene {
   Precision precision = Precision::Float;
   int maxSubstepsPerFrame = 20000;
   double substepSafety = 0.9;
+  std::uint32_t fragmentBodyElements = 0;
+  std::uint32_t maxNewBodies = 2;
   bool sleep = true;
   bool breaking = true;
   bool crushing = true;

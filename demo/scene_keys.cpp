@@ -22,7 +22,9 @@ constexpr Limits kFrames = {1, 1e6};             // four and a half hours at 60 
 constexpr Limits kFps = {1, 1e4};                // [1/s]
 constexpr Limits kSeed = {0, 9007199254740991};  // 2^53 - 1: whole numbers that JSON keeps exactly
 constexpr double kLowestSun = 1e-3;              // sine of its height; below, shadows have no end
-constexpr Limits kAmbient = {0, 10};             // factor on the usual light
+constexpr Limits kFragmentBodyElements = {0, 1e7};
+constexpr Limits kMaxNewBodies = {1, 1000};
+constexpr Limits kAmbient = {0, 10};  // factor on the usual light
 
 // Refuses points on one place, line or plane. Bullet rounds the corners of a hull to 1e-4 of its extent, so a
 // thickness below a few of these is none.
@@ -222,6 +224,10 @@ const Table<Scene>& allKeys() {
                    "a scene that needs more is refused"),
       number<Scene>("substep_safety", &Scene::substepSafety, limits::kSubstepSafety, "",
                     "share of the stable substep that is used"),
+      whole<Scene>("fragment_body_elements", &Scene::fragmentBodyElements, kFragmentBodyElements, "",
+                   "fragments of so many elements become bodies of their own; 0: none does"),
+      whole<Scene>("max_new_bodies", &Scene::maxNewBodies, kMaxNewBodies, "",
+                   "of those in a tick of Bullet's; the others wait"),
       flag<Scene>("sleep", &Scene::sleep, "bodies at rest are put to sleep"),
       flag<Scene>("breaking", &Scene::breaking, "springs may break"),
       flag<Scene>("crushing", &Scene::crushing, "elements may be crushed"),

@@ -52,9 +52,7 @@ HullMesh hullMesh(const btConvexHullShape& shape) {
 
 Stage::Stage(const World& world, const Scene& scene)
     : m_renderer(rendererDef()), m_lighting(lighting(scene.light)) {
-  for (const DestructibleBody* body : world.destruction().bodies()) {
-    m_bodies.push_back(m_renderer.addBody(*body->asset(), body->model().cellJoining));
-  }
+  addBodies(world);
   measure(world);
   m_grain = grainScale(m_bounds.isEmpty() ? 0 : m_bounds.diagonal().norm());
   m_lighting.grainScale = m_grain;
@@ -64,6 +62,15 @@ Stage::Stage(const World& world, const Scene& scene)
   if (m_bodies.empty() && !m_bounds.isEmpty()) m_lighting.shadowBounds = m_bounds;
 }
 
+// Those that have come since, too. By their numbers, of which one has no body where that was removed.
+void Stage::addBodies(const World& world) {
+  for (const DestructibleBody* body : world.destruction().bodies()) {
+    if (body->id() < m_bodies.size()) continue;
+    m_bodies.resize(std::size_t(body->id()) + 1);
+    m_bodies.back() = m_renderer.addBody(*body->asset(), body->model().cellJoining);
+  }
+}
+
 // Crushed elements stay where they fell to pieces; debris is what the bodies were.
 void Stage::measure(const World& world) {
   m_bounds.setEmpty();
@@ -71,7 +78,10 @@ void Stage::measure(const World& world) {
     m_poses.resize(body->asset()->elementCount());
     body->poses(m_poses);
     Eigen::AlignedBox3f box;
-    for (const ElementPose& pose : m_poses) box.extend(pose.position);
+    const bool isPart = body->source() != body->id();  // without those that others have
+    for (const ElementPose& pose : m_poses)
+      if (!isPart || pose.alive > 0) box.extend(pose.position);
+    if (box.isEmpty()) continue;
     const Eigen::Vector3f radius = Eigen::Vector3f::Constant(float(body->asset()->radius));
     m_bounds.extend(Eigen::AlignedBox3f(box.min() - radius, box.max() + radius));
   }
@@ -130,6 +140,7 @@ void Stage::addPlane(const btRigidBody& body) {
 void Stage::update(const World& world) {
   for (; m_impactorsShown < world.impactors().size(); ++m_impactorsShown)
     addProp(*world.impactors()[m_impactorsShown]);
+  addBodies(world);
   measure(world);
   for (const Prop& prop : m_props) {
     const btTransform pose = prop.body->getWorldTransform() * prop.inBody;

@@ -31,6 +31,7 @@ class Stage {
   void addProp(const btRigidBody& body);
   void addPlane(const btRigidBody& body);
   void measure(const World& world);
+  void addBodies(const World& world);
 
   Renderer m_renderer;
   Lighting m_lighting;

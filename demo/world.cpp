@@ -80,6 +80,8 @@ DestructionDef destructionDef(const Scene& scene, const LogFunction& log) {
   def.debris = scene.debris.has_value();
   def.maxDebris = scene.debris ? scene.debris->budget : 0;
   def.maxEvents = scene.maxEvents;
+  def.fragmentBodyElements = scene.fragmentBodyElements;
+  def.maxNewBodies = scene.maxNewBodies;
   def.sleep = scene.sleep;
   def.breaking = scene.breaking;
   def.crushing = scene.crushing;

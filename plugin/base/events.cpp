@@ -7,6 +7,7 @@ void Events::clear() {
   elementsCrushed.clear();
   debrisSpawned.clear();
   fragmentsSplit.clear();
+  bodiesSplit.clear();
   contacts.clear();
   dustSources.clear();
   dropped = 0;

@@ -39,6 +39,7 @@ struct DestructibleBody::Impl {
   double easeTime = 0;                        ///< for which it is still eased into a load [s]
   Destruction::Impl* world = nullptr;         ///< null once the Destruction is gone
   std::uint32_t id = 0;
+  std::uint32_t source = 0;  ///< id of the body that was added and of which it is a part
   std::shared_ptr<const Asset> asset;
   rubble::Material material;
   Model model;

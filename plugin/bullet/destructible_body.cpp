@@ -27,6 +27,9 @@ DestructibleBody* DestructibleBody::upcast(btCollisionObject* object) {
 std::uint32_t DestructibleBody::id() const {
   return m_impl->id;
 }
+std::uint32_t DestructibleBody::source() const {
+  return m_impl->source;
+}
 const std::shared_ptr<const Asset>& DestructibleBody::asset() const {
   return m_impl->asset;
 }

@@ -53,6 +53,10 @@ std::span<DestructibleBody* const> Destruction::bodies() const {
   return m_impl->bodies;
 }
 
+DestructibleBody* Destruction::body(std::uint32_t id) const {
+  return m_impl->bodyOf(id);
+}
+
 const Events& Destruction::takeEvents() {
   const Events& full = m_impl->events[m_impl->filling];
   m_impl->filling = 1 - m_impl->filling;

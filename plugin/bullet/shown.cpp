@@ -1,6 +1,7 @@
 #include "bullet/shown.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "bullet/body_states.h"
@@ -49,12 +50,12 @@ btTransform Destruction::Impl::placeOfShown(DestructibleBody& body, const edem::
   DestructibleBody::Impl& own = body.impl();
   bullet::Shown& shown = own.shown;
   const edem::BodyView view = solver->view(own.id);
-  const std::pair damage(view.broken, view.crushed);
+  const std::array damage = {view.broken, view.crushed, view.absentElements};
   if (shown.damage != damage) {
     shown.damage = damage;
     shown.turning = view.fragments > 1 ? heaviestFragment(view) : kNoElement;
   }
-  const bool complete = view.fragments == 1 && view.crushed == 0;
+  const bool complete = view.fragments == 1 && view.crushed == 0 && view.absentElements == 0;
   const edem::Placement at =
       solver->placement(own.id, shown.fragment != kNoElement ? shown.fragment : shown.turning);
   shown.anchored = at.anchored;

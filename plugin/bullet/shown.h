@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "rubble/abi.h"
@@ -16,8 +18,8 @@ struct Shown {
   /// Bullet's frame in the asset's, as far as that follows what is seen.
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   bool anchored = false;  ///< an anchor holds some of it
-  /// Springs broken and elements crushed when the fragments were last looked at; none: never.
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> damage;
+  /// Springs broken, elements crushed and given away when the fragments were last looked at; none: never.
+  std::optional<std::array<std::uint32_t, 3>> damage;
 };
 
 RUBBLE_ABI_END

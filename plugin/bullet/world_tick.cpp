@@ -97,6 +97,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
     logPrestress(impl->id, impl->name, bodyDef);  // the advice would be its reason
   }
   impl->world = this;
+  impl->source = impl->id;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
   impl->model = bodyDef.model;
@@ -120,11 +121,15 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
     showElements(*body);
   }
   if (bodyDef.model.contactBesideSpring) energyBalance.beginAnew();  // they may press from the start
-  world.addRigidBody(body, bodyDef.collisionGroup, bodyDef.collisionMask);
-  world.addConstraint(body->impl().coupler.get());
-  bodies.push_back(body);
+  enter(*body, bodyDef.collisionGroup, bodyDef.collisionMask);
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
   return body;
+}
+
+void Destruction::Impl::enter(DestructibleBody& body, int group, int mask) {
+  world.addRigidBody(&body, group, mask);
+  world.addConstraint(body.impl().coupler.get());
+  bodies.push_back(&body);
 }
 
 // Says why the state that an asset keeps was of no use.
@@ -335,6 +340,7 @@ void Destruction::Impl::finish(double dt) {
     const base::ScopeTimer timer(times.fracture);
     bookEvents();
     breakElements();
+    splitBodies();
   }
   if (debrisSystem && failure.empty()) {
     const base::ScopeTimer timer(times.debris);

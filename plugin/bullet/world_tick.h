@@ -50,6 +50,12 @@ struct Reaction {
   bool rests = true;  ///< else it moves, and anchors ride on it
 };
 
+/// Of the fragment with some lowest element.
+struct FragmentSize {
+  std::uint32_t elements = 0;
+  double mass = 0;  ///< [kg]
+};
+
 RUBBLE_ABI_END
 }  // namespace rubble::bullet
 
@@ -72,6 +78,8 @@ struct Destruction::Impl {
   void wakeTouching(const DestructibleBody& body);
   /// After Bullet moved its bodies.
   void finish(double dt);
+  /// Null: none has that id.
+  DestructibleBody* bodyOf(std::uint32_t id) const;
 
   btDiscreteDynamicsWorld& world;
   DestructionDef def;
@@ -104,6 +112,7 @@ struct Destruction::Impl {
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
+  std::vector<bullet::FragmentSize> fragmentSizes;  ///< scratch
   bullet::EnergyBalance energyBalance;
   bullet::PushOut pushOut;
 
@@ -134,6 +143,12 @@ struct Destruction::Impl {
   void writeAppliedImpulses();
   void bookEvents();
   void breakElements();
+  /// Makes bodies of fragments that have come free.
+  void splitBodies();
+  std::vector<std::uint32_t> fragmentsToSplit(const DestructibleBody& body);
+  void splitBody(DestructibleBody& body, std::uint32_t root);
+  /// Puts a new body into the world.
+  void enter(DestructibleBody& body, int group, int mask);
   void failSolver();
   /// Ends the simulation where a whole body's place or motion in Bullet is not finite.
   void failSpoiled();
@@ -184,7 +199,6 @@ struct Destruction::Impl {
   void freeze(DestructibleBody& body);
   void followSleep();
   void updateSleep(double dt);
-  DestructibleBody* bodyOf(std::uint32_t id) const;
   template <class T>
   void record(std::vector<T>& list, const T& event);
 

@@ -28,6 +28,10 @@ class DestructibleBody : public btRigidBody {
   static const DestructibleBody* upcast(const btCollisionObject* object);
 
   std::uint32_t id() const;  ///< index in Destruction::bodies() order of adding; never reused
+  /// Id of the body that was added and of which this is a fragment (DestructionDef::fragmentBodyElements);
+  /// its own where it was added itself. Elements and springs have the numbers that they had there; those that
+  /// another body has are not alive and not intact here.
+  std::uint32_t source() const;
   const std::shared_ptr<const Asset>& asset() const;
   const Material& material() const;
   const Model& model() const;

@@ -39,10 +39,16 @@ struct DestructionDef {
   bool debris = true;
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces; beyond it the oldest resting one is removed
   std::uint32_t maxEvents = 1u << 20;
-  bool sleep = true;       ///< bodies at rest are put to sleep by Bullet's own rules
-  bool breaking = true;    ///< false: springs never break (tests of stability)
-  bool crushing = true;    ///< false: elements never crush
-  std::uint64_t seed = 1;  ///< of the debris sizes
+  /// A fragment of at least this many elements becomes a body of its own (Events::bodiesSplit) once it is
+  /// free, awake and touches no other elements; 0: none does. Each body has arrays of all elements of its
+  /// asset, so it has at least 1/64 of them, too. What joints hold keeps its fragments, and of a body that no
+  /// anchor holds the heaviest stays.
+  std::uint32_t fragmentBodyElements = 0;
+  std::uint32_t maxNewBodies = 2;  ///< of those in a tick; the others wait
+  bool sleep = true;               ///< bodies at rest are put to sleep by Bullet's own rules
+  bool breaking = true;            ///< false: springs never break (tests of stability)
+  bool crushing = true;            ///< false: elements never crush
+  std::uint64_t seed = 1;          ///< of the debris sizes
   LogFunction log;
 };
 
@@ -117,6 +123,8 @@ class Destruction : public btActionInterface {
   /// knows of, a blast or a cut. Nothing to do for others.
   void strike(DestructibleBody* body);
   std::span<DestructibleBody* const> bodies() const;
+  /// The body with that DestructibleBody::id(); null once it is removed.
+  DestructibleBody* body(std::uint32_t id) const;
 
   /// What happened since the last call, over any number of ticks. Valid until the next call.
   const Events& takeEvents();

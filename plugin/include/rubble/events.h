@@ -46,6 +46,16 @@ struct FragmentSplit {
   float mass;              ///< [kg]
 };
 
+/// A fragment has become a body of its own: Destruction::body(newBody) is in the world, with the collision
+/// filter, factors and gravity of the one that it comes from.
+struct BodySplit {
+  std::uint32_t body;
+  std::uint32_t newBody;
+  std::uint32_t root;      ///< lowest element of the fragment, in both
+  std::uint32_t elements;  ///< how many it has
+  float mass;              ///< [kg]
+};
+
 /// Sum over one tick of what a Bullet body and a destructible body did to each other.
 struct ContactImpulse {
   std::uint32_t body;
@@ -59,6 +69,7 @@ struct Events {
   std::vector<ElementCrushed> elementsCrushed;
   std::vector<DebrisSpawned> debrisSpawned;
   std::vector<FragmentSplit> fragmentsSplit;
+  std::vector<BodySplit> bodiesSplit;
   std::vector<ContactImpulse> contacts;
   std::vector<DustSource> dustSources;
   /// What was dropped because a list was full; 0 in a healthy run. Raise DestructionDef::maxEvents.
