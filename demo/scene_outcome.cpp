@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "bullet/convert.h"
@@ -39,22 +40,28 @@ std::vector<double> fragmentMasses(const World& world) {
 // centre of what is left of it, along its first way.
 class StrikingObject {
  public:
-  StrikingObject(const Scene& scene, const World& world) {
+  StrikingObject(const Scene& scene, const World& world) : m_world(world) {
     if (!scene.impactors.empty()) return;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       if (scene.objects[i].velocity.isZero()) continue;
-      m_body = world.destruction().bodies()[i];
+      m_source = world.destruction().bodies()[i]->id();
       m_direction = toBullet(scene.objects[i].velocity.normalized());
     }
   }
-  bool exists() const { return m_body; }
+  bool exists() const { return m_source.has_value(); }
   double speed() const {
-    const double mass = m_body->elementMass();
-    return mass > 0 ? double(m_body->linearMomentum().dot(m_direction)) / mass : 0;
+    double mass = 0, momentum = 0;
+    for (const DestructibleBody* body : m_world.destruction().bodies()) {
+      if (body->source() != m_source) continue;
+      mass += body->elementMass();
+      momentum += double(body->linearMomentum().dot(m_direction));
+    }
+    return mass > 0 ? momentum / mass : 0;
   }
 
  private:
-  const DestructibleBody* m_body = nullptr;
+  const World& m_world;
+  std::optional<std::uint32_t> m_source;
   btVector3 m_direction;
 };
 
