@@ -175,9 +175,8 @@ void Destruction::Impl::forget(DestructibleBody& body) {
 }
 
 DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
-  for (DestructibleBody* body : bodies)
-    if (body->id() == id) return body;
-  return nullptr;
+  const auto found = std::ranges::lower_bound(bodies, id, {}, &DestructibleBody::id);  // in rising order
+  return found != bodies.end() && (*found)->id() == id ? *found : nullptr;
 }
 
 void Destruction::Impl::wakeTouching(const DestructibleBody& body) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/number_text.h"
@@ -38,6 +39,7 @@ class SolverOf final : public Solver {
     bookNew(*body, m_world.books);
     m_world.bodies.push_back(std::move(body));
     m_prestressed.push_back(std::move(prestressed));
+    m_places.push_back(std::uint32_t(m_world.bodies.size() - 1));
     m_world.listsStale = true;
     return m_nextId++;
   }
@@ -53,6 +55,7 @@ class SolverOf final : public Solver {
     bookLeaving(*m_world.bodies[place], contacts, m_world.books);
     m_world.bodies.erase(m_world.bodies.begin() + std::ptrdiff_t(place));
     m_prestressed.erase(m_prestressed.begin() + std::ptrdiff_t(place));
+    noteRemoved(id);
     m_world.lists.removeBody(std::uint32_t(place));
     m_world.listsStale = true;
   }
@@ -66,6 +69,7 @@ class SolverOf final : public Solver {
     if (m_world.lists.touchOthers(place, leaves)) return std::nullopt;
     m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, root, m_nextId)));
     m_prestressed.emplace_back();
+    m_places.push_back(newPlace);
     m_world.lists.split(place, leaves, newPlace, m_nextId);
     m_world.rigid.split(id, leaves, m_nextId);
     m_world.listsStale = true;
@@ -252,9 +256,14 @@ class SolverOf final : public Solver {
       if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, std::uint32_t(place), i);
   }
   std::size_t placeOf(std::uint32_t id) const {
-    for (std::size_t b = 0; b < m_world.bodies.size(); ++b)
-      if (m_world.bodies[b]->id == id) return b;
-    throw Error("no destructible body has the id " + std::to_string(id));
+    if (id >= m_places.size() || m_places[id] == kNoPlace)
+      throw Error("no destructible body has the id " + std::to_string(id));
+    return m_places[id];
+  }
+  void noteRemoved(std::uint32_t id) {
+    const std::uint32_t place = std::exchange(m_places[id], kNoPlace);
+    for (std::uint32_t& p : m_places)
+      if (p != kNoPlace && p > place) --p;
   }
   // The host takes a body from where it touched.
   void endContactsOf(std::uint32_t id) {
@@ -269,8 +278,11 @@ class SolverOf final : public Solver {
     return m_world.def.substepSafety * bodyBound(body).stableStep();
   }
 
+  static constexpr std::uint32_t kNoPlace = 0xffffffffu;
+
   World<Real> m_world;
   std::uint32_t m_nextId = 0;
+  std::vector<std::uint32_t> m_places;         // in the list of bodies, by id; kNoPlace: removed
   std::vector<PrestressResult> m_prestressed;  // beside the bodies
   StaticRestCache m_restCache;
 };
