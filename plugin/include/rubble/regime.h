@@ -12,7 +12,8 @@ enum class Regime {
   /// (slow, without tremor, no spring stressed to half its strength), it is Bullet's again: in the shape it
   /// had, with both momenta and the application's settings, until it is struck the next time. One that has
   /// come apart stays elements. Loads that rest on it, its own weight if it is anchored included, hand it to
-  /// its elements too, where beam theory finds half its strength. Only convex solids; others are elements,
+  /// its elements too, where beam theory finds half its strength. A solid that is not convex is a compound of
+  /// convex parts, at most 10 % larger; one for which those would be too many is elements,
   /// which is logged.
   RigidUntilStruck,
 };
