@@ -201,6 +201,16 @@ const Table<SceneDebris>& debrisKeys() {
   return table;
 }
 
+// Not listed where there are none: what has been kept of scenes without stays theirs.
+Key<Scene> ofFragmentBodies(const char* name, std::uint32_t Scene::*member, const Limits& limits,
+                            const char* meaning) {
+  Key<Scene> key = whole<Scene>(name, member, limits, "", meaning);
+  key.listNested = [=](std::vector<std::string>& lines, const Scene& scene, const std::string& path) {
+    if (scene.fragmentBodyElements > 0) lines.push_back(path + " = " + std::to_string(scene.*member));
+  };
+  return key;
+}
+
 const Table<Scene>& allKeys() {
   static const Table<Scene> table = {
       list<Scene, SceneObject>("objects", &Scene::objects, objectKeys(), "what can break"),
@@ -224,10 +234,10 @@ const Table<Scene>& allKeys() {
                    "a scene that needs more is refused"),
       number<Scene>("substep_safety", &Scene::substepSafety, limits::kSubstepSafety, "",
                     "share of the stable substep that is used"),
-      whole<Scene>("fragment_body_elements", &Scene::fragmentBodyElements, kFragmentBodyElements, "",
-                   "fragments of so many elements become bodies of their own; 0: none does"),
-      whole<Scene>("max_new_bodies", &Scene::maxNewBodies, kMaxNewBodies, "",
-                   "of those in a tick of Bullet's; the others wait"),
+      ofFragmentBodies("fragment_body_elements", &Scene::fragmentBodyElements, kFragmentBodyElements,
+                       "fragments of so many elements become bodies of their own; 0: none does"),
+      ofFragmentBodies("max_new_bodies", &Scene::maxNewBodies, kMaxNewBodies,
+                       "of those in a tick of Bullet's; the others wait"),
       flag<Scene>("sleep", &Scene::sleep, "bodies at rest are put to sleep"),
       flag<Scene>("breaking", &Scene::breaking, "springs may break"),
       flag<Scene>("crushing", &Scene::crushing, "elements may be crushed"),

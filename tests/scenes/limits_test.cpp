@@ -188,8 +188,8 @@ TEST_F(SceneLimits, EveryNumberOfASceneIsLookedAt) {
       "statics.N.friction", "statics.N.restitution", "objects.N.rotation_degrees",
       "impactors.N.rotation_degrees", "statics.N.rotation_degrees", "gravity", "bullet_rate",
       // of the run and of the pictures (picture_test.cpp)
-      "frames", "fps", "seed", "camera.eye", "camera.target", "camera.field_of_view_degrees", "light.ambient",
-      "dust.min", "dust.max", "dust.opacity"};
+      "frames", "fps", "seed", "fragment_body_elements", "max_new_bodies", "camera.eye", "camera.target",
+      "camera.field_of_view_degrees", "light.ambient", "dust.min", "dust.max", "dust.opacity"};
   for (Row row : rows()) {
     if (const auto n = row.key.find(".0."); n != std::string::npos) row.key.replace(n, 3, ".N.");
     seen.insert(row.key);
