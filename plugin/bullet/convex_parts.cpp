@@ -25,7 +25,8 @@ constexpr double kFaceGain = 0.02;
 // Nor does the first cut through a ring: one that halves a piece across where it is longest counts with this
 // share of its volume.
 constexpr double kHalvingGain = 0.03;
-// Corners of a part.
+// Corners of a part. A ring's parts had 460, which Bullet looks through for each of its contacts; with these
+// the hulls of ring and statue are smaller by 1.5 and 0.3 % of the solid, and still larger than it.
 constexpr std::size_t kMostCorners = 64;
 
 using Reach = Eigen::Array<float, kDirections, 1>;  // furthest points only: floats do [m]

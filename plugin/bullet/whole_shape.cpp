@@ -24,7 +24,7 @@ constexpr double kBoxExcess = 1e-3;
 constexpr double kMargin = 1e-3, kMarginShare = 0.02;
 
 // Convex parts are added until they are larger by no more than the first share, or so many. A column is then
-// 4, a ring 11 to 16 (3.7 %), the statue of the scenes 16 (3.5 %). What is larger by more than the last stays
+// 4, a ring 11 to 16 (3.2 %), the statue of the scenes 16 (3.1 %). What is larger by more than the last stays
 // elements.
 constexpr double kPartsExcess = 0.03, kMostPartsExcess = 0.1;
 constexpr int kMostParts = 16;
