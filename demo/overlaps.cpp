@@ -3,6 +3,7 @@
 // count up to it, so no overlap is told that is none.
 #include "demo/overlaps.h"
 
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <algorithm>
@@ -112,10 +113,20 @@ struct Deepest : btCollisionWorld::ContactResultCallback {
   double depth = 0;
 };
 
-// What Bullet puts around the corners of a hull [m]; other shapes have their margin inside.
+// What Bullet puts around the corners of a hull, or of a compound's hulls at most [m]; other shapes have
+// their margin inside.
+double around(const btCollisionShape& shape) {
+  if (shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE) return double(shape.getMargin());
+  double most = 0;
+  if (shape.getShapeType() != COMPOUND_SHAPE_PROXYTYPE) return most;
+  const auto& compound = static_cast<const btCompoundShape&>(shape);
+  for (int i = 0; i < compound.getNumChildShapes(); ++i)
+    most = std::max(most, around(*compound.getChildShape(i)));
+  return most;
+}
+
 double around(const btRigidBody& body) {
-  const btCollisionShape& shape = *body.getCollisionShape();
-  return shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE ? double(shape.getMargin()) : 0;
+  return around(*body.getCollisionShape());
 }
 
 // How far one of two bodies of Bullet is from being outside of the other [m].

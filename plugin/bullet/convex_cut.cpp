@@ -28,21 +28,25 @@ Eigen::Vector3d areaOf(const CutSurface& surface, const Corners& t) {
   return (surface.points[t[1]] - surface.points[t[0]]).cross(surface.points[t[2]] - surface.points[t[0]]);
 }
 
-// Sides that a triangle is on, by its corners' distances from the plane.
-std::uint8_t sidesOf(const CutSurface& surface, const Corners& t, const std::vector<double>& over,
-                     const CutPlane& plane, double nearness) {
-  const double low = std::min({over[t[0]], over[t[1]], over[t[2]]}),
-               high = std::max({over[t[0]], over[t[1]], over[t[2]]});
-  if (low > -nearness && high < nearness)
-    return areaOf(surface, t).dot(plane.normal) > 0 ? Crossings::kBelow : Crossings::kAbove;
-  return std::uint8_t((low <= -nearness ? Crossings::kBelow : 0) |
-                      (high >= nearness ? Crossings::kAbove : 0));
+// Of each point what is below and above it; neither of what is on it.
+void findSides(const std::vector<double>& over, double nearness, std::vector<std::uint8_t>& sides) {
+  sides.resize(over.size());
+  for (std::size_t i = 0; i < over.size(); ++i)
+    sides[i] = std::uint8_t((over[i] <= -nearness ? Crossings::kBelow : 0) |
+                            (over[i] >= nearness ? Crossings::kAbove : 0));
 }
 
-std::vector<double> distancesOver(const CutSurface& surface, const CutPlane& plane) {
-  std::vector<double> over(surface.points.size());
+// Sides that a triangle is on, by those of its corners.
+std::uint8_t sidesOf(const CutSurface& surface, const Corners& t, const std::vector<std::uint8_t>& sides,
+                     const CutPlane& plane) {
+  const auto all = std::uint8_t(sides[t[0]] | sides[t[1]] | sides[t[2]]);
+  if (all != 0) return all;
+  return areaOf(surface, t).dot(plane.normal) > 0 ? Crossings::kBelow : Crossings::kAbove;
+}
+
+void findDistances(const CutSurface& surface, const CutPlane& plane, std::vector<double>& over) {
+  over.resize(surface.points.size());
   for (std::size_t i = 0; i < over.size(); ++i) over[i] = plane.over(surface.points[i]);
-  return over;
 }
 
 Eigen::Vector3d crossing(const CutSurface& surface, std::uint32_t a, std::uint32_t b,
@@ -144,20 +148,18 @@ CutSurface outerSurface(const Asset& asset) {
 }
 
 void findCrossings(const CutSurface& surface, const CutPlane& plane, double nearness, Crossings& found) {
-  const std::vector<double> over = distancesOver(surface, plane);
-  found.sides.assign(surface.points.size(), 0);
+  findDistances(surface, plane, found.over);
+  findSides(found.over, nearness, found.ofPoint);
+  found.sides = found.ofPoint;
   found.between.clear();
-  CrossingUse crossings;
+  const std::vector<double>& over = found.over;
   for (const Corners& t : surface.triangles) {
-    const std::uint8_t sides = sidesOf(surface, t, over, plane, nearness);
+    const std::uint8_t sides = sidesOf(surface, t, found.ofPoint, plane);
+    for (const std::uint32_t p : t)
+      if (found.ofPoint[p] == 0) found.sides[p] |= sides;
+    if (sides != (Crossings::kBelow | Crossings::kAbove)) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t a = t[c], b = t[(c + 1) % 3];
-      if (sides != (Crossings::kBelow | Crossings::kAbove)) {
-        found.sides[a] |= sides;
-        continue;
-      }
-      if (over[a] < nearness) found.sides[a] |= Crossings::kBelow;
-      if (over[a] > -nearness) found.sides[a] |= Crossings::kAbove;
       // Both triangles of an edge find it; one is enough.
       if (over[a] <= -nearness && over[b] >= nearness) found.between.push_back(crossing(surface, a, b, over));
     }
@@ -165,10 +167,13 @@ void findCrossings(const CutSurface& surface, const CutPlane& plane, double near
 }
 
 std::array<CutSurface, 2> cutSurface(const CutSurface& surface, const CutPlane& plane, double nearness) {
-  const std::vector<double> over = distancesOver(surface, plane);
+  std::vector<double> over;
+  std::vector<std::uint8_t> ofPoint;
+  findDistances(surface, plane, over);
+  findSides(over, nearness, ofPoint);
   Half below{{}, std::vector<std::uint32_t>(surface.points.size(), kNoPoint), {}}, above = below;
   for (const Corners& t : surface.triangles) {
-    const std::uint8_t sides = sidesOf(surface, t, over, plane, nearness);
+    const std::uint8_t sides = sidesOf(surface, t, ofPoint, plane);
     for (Half* half : {&below, &above}) {
       const bool isBelow = half == &below;
       if (!(sides & (isBelow ? Crossings::kBelow : Crossings::kAbove))) continue;

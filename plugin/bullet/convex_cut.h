@@ -43,6 +43,8 @@ struct Crossings {
   static constexpr std::uint8_t kBelow = 1, kAbove = 2;
   std::vector<std::uint8_t> sides;       ///< one a point
   std::vector<Eigen::Vector3d> between;  ///< on both: corners
+  std::vector<double> over;              ///< scratch: of each point [m]
+  std::vector<std::uint8_t> ofPoint;     ///< scratch: its own side, none of what is on the plane
 };
 
 /// What lies nearer than `nearness` [m] to the plane is on it. A face that lies in the plane is on the side

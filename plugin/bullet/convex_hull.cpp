@@ -19,13 +19,19 @@ ConvexHull convexHullOf(std::span<const Eigen::Vector3d> points) {
   const Eigen::Vector3d apex = hull.points[0];
   for (int f = 0; f < computer.faces.size(); ++f) {
     const auto* first = &computer.edges[computer.faces[f]];
-    const Eigen::Vector3d corner = hull.points[std::size_t(first->getSourceVertex())] - apex;
+    const Eigen::Vector3d corner = hull.points[std::size_t(first->getSourceVertex())];
+    Eigen::Vector3d area = Eigen::Vector3d::Zero();  // twice
     for (const auto* e = first->getNextEdgeOfFace(); e->getNextEdgeOfFace() != first;
          e = e->getNextEdgeOfFace()) {
-      const Eigen::Vector3d a = hull.points[std::size_t(e->getSourceVertex())] - apex,
-                            b = hull.points[std::size_t(e->getTargetVertex())] - apex;
-      hull.volume += std::abs(corner.dot(a.cross(b))) / 6;  // seen from a corner all faces turn one way
+      const Eigen::Vector3d a = hull.points[std::size_t(e->getSourceVertex())] - corner,
+                            b = hull.points[std::size_t(e->getTargetVertex())] - corner;
+      area += a.cross(b);
     }
+    const double volume = area.dot(corner - apex) / 6;
+    hull.volume += std::abs(volume);  // seen from a corner all faces turn one way
+    if (!(area.squaredNorm() > 0)) continue;
+    const Eigen::Vector3d normal = area.normalized();
+    hull.faces.push_back({normal, normal.dot(corner), area.norm() / 2});
   }
   return hull;
 }

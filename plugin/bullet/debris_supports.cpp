@@ -73,7 +73,7 @@ bool DebrisSupports::hasLeft(Support& support) const {
 void DebrisSupports::takeDeparted(Body& body) {
   const DestructibleBody* own =
       isPresent(body.presence) ? DestructibleBody::upcast(body.presence.object) : nullptr;
-  // The elements of a whole body are nobody's support: its box or hull is.
+  // The elements of a whole body are nobody's support: its rigid shape is.
   const bool isThere = own && own->id() == body.id && !own->isWhole();
   if (isThere && m_solver.view(body.id).asleep) return;
   std::erase_if(body.elements, [&](const Element& e) {

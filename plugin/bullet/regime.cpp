@@ -84,7 +84,7 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
     return;
   }
   const edem::BodyView view = solver->view(own.id);
-  own.whole = bullet::wholeShape(*own.asset, view.mass, view.inertia);
+  own.whole = wholeShapes.of(own.asset, view.mass, view.inertia);
   own.held = bodyDef.anchored && !own.asset->anchors.empty();
   const char* reason = own.whole.shape ? nullptr : "few convex parts do not fit its solid";
   if (!reason && !solver->park(own.id).has_value()) reason = "it is not one piece";

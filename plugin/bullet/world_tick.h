@@ -14,6 +14,7 @@
 #include "bullet/push_out.h"
 #include "bullet/rigid_proxies.h"
 #include "bullet/soft_contacts.h"
+#include "bullet/whole_shapes.h"
 #include "debris/debris_system.h"
 #include "edem/solver.h"
 #include "rubble/destruction.h"
@@ -107,6 +108,7 @@ struct Destruction::Impl {
   int substeps = 0;
   std::uint64_t ticks = 0;  ///< that are over, and their time [s]
   double seconds = 0;
+  bullet::WholeShapes wholeShapes;
   int wholes = 0;               ///< bodies that Bullet moves
   bool lookedForBlows = false;  ///< in this tick
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
