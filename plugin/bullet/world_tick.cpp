@@ -5,6 +5,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -32,6 +33,14 @@ constexpr double kCalmSpeed = 0.1;
 // sleep are helped to rest once they have been slower than this for half a second; they rise 3 mm by it
 // [m/s]. The half of a wall that a ball went through rings at 0.12.
 constexpr double kSettleSpeed = 0.25;
+// Roundings of Bullet's numbers from one tick to the next, over their largest: its own step, ours, and the
+// sum of both.
+constexpr double kRoundings = 4;
+
+float roundingOf(const edem::RigidProxy& proxy) {
+  constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
+  return float(kRoundings * kEpsilon * proxy.position.cwiseAbs().maxCoeff());
+}
 
 }  // namespace
 
@@ -209,6 +218,7 @@ void Destruction::Impl::gatherProxies(double dt) {
       if (proxy.isDynamic()) {
         t.rigid = btRigidBody::upcast(object);
         proxy.placed = t.rigid && wasPlaced(*object);
+        if (t.rigid) proxy.rounding = roundingOf(proxy);
         t.link = link;
         t.velocity = toBullet(proxy.velocity);
         t.spin = toBullet(proxy.spin);

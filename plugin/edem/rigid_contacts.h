@@ -19,8 +19,8 @@ class RigidContacts {
   using Bodies = std::span<const std::unique_ptr<Body<Real>>>;
 
   /// Takes the proxies of a new tick; what contacts remember stays, but for those at proxies that the
-  /// application has put further away than `leap` [m].
-  void beginTick(std::span<RigidProxy> proxies, double leap);
+  /// application has put further away than `leap` [m]. Of bodies lighter than `light` [kg] see takeProxies.
+  void beginTick(std::span<RigidProxy> proxies, double leap, double light);
   /// Lists the elements within their reach + skin of each proxy. Holds until elements or proxies moved half
   /// the skin.
   void build(Bodies bodies, const PairLists<Real>& lists);
