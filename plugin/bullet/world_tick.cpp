@@ -37,6 +37,19 @@ constexpr double kSettleSpeed = 0.25;
 // sum of both.
 constexpr double kRoundings = 4;
 
+// Where impulses taken as one at the tick's start give a body so many times the energy of rotation that it
+// had after the substeps, it turned too far in them for that.
+constexpr double kTurned = 1.05;
+
+// Of a body of unlike inertias, turned as it is after the substeps [J].
+double rotationOf(const edem::RigidProxy& proxy, const Eigen::Vector3d& spin) {
+  const Eigen::Vector3d own = proxy.orientation.conjugate() * spin;
+  double twice = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (proxy.inverseInertia[axis] > 0) twice += own[axis] * own[axis] / proxy.inverseInertia[axis];
+  return 0.5 * twice;
+}
+
 float roundingOf(const edem::RigidProxy& proxy) {
   constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
   return float(kRoundings * kEpsilon * proxy.position.cwiseAbs().maxCoeff());
@@ -307,6 +320,10 @@ void Destruction::Impl::advance(double dt) {
       t.deltaSpin = toBullet(Eigen::Vector3d(locked->bottomRightCorner<3, 3>() * proxies[p].angularImpulse));
     }
     t.deltaVelocity = toBullet(change);
+    const Eigen::Vector3d turning = s.spin + dt * s.angularAcceleration, own = proxies[p].spin;
+    if (!s.mobility && proxies[p].isPressed() &&
+        rotationOf(proxies[p], turning + toEigen(t.deltaSpin)) > kTurned * rotationOf(proxies[p], own))
+      t.deltaSpin = toBullet(Eigen::Vector3d(own - turning));
     // Where Bullet brings it under the same impulses, taken as one at the tick's start.
     const btTransform begin(toBullet(s.orientation), toBullet(s.position));
     btTransformUtil::integrateTransform(
