@@ -50,6 +50,11 @@ double rotationOf(const edem::RigidProxy& proxy, const Eigen::Vector3d& spin) {
   return 0.5 * twice;
 }
 
+// What has one inertia about all axes gets the same by its impulses whenever they come.
+bool isUneven(const edem::RigidProxy& proxy) {
+  return proxy.inverseInertia.maxCoeff() > 1.01 * proxy.inverseInertia.minCoeff();
+}
+
 float roundingOf(const edem::RigidProxy& proxy) {
   constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
   return float(kRoundings * kEpsilon * proxy.position.cwiseAbs().maxCoeff());
@@ -321,7 +326,7 @@ void Destruction::Impl::advance(double dt) {
     }
     t.deltaVelocity = toBullet(change);
     const Eigen::Vector3d turning = s.spin + dt * s.angularAcceleration, own = proxies[p].spin;
-    if (!s.mobility && proxies[p].isPressed() &&
+    if (!s.mobility && proxies[p].isPressed() && isUneven(s) &&
         rotationOf(proxies[p], turning + toEigen(t.deltaSpin)) > kTurned * rotationOf(proxies[p], own))
       t.deltaSpin = toBullet(Eigen::Vector3d(own - turning));
     // Where Bullet brings it under the same impulses, taken as one at the tick's start.
