@@ -120,10 +120,12 @@ class Run {
       if (!std::isfinite(numbers[i]))
         return violate("number " + std::to_string(i) + " of the ledger is not finite");
     if (l.massError > 1e-6) violate("mass is lost: error " + std::to_string(l.massError));
-    // The paper's contacts beside springs press from the start, which the ledger sees in the first step.
+    // The paper's contacts beside springs press from the start, with energy that no book has: what the ledger
+    // does not close by in the first tick.
     if (m_case.paper && m_outcome.work <= m_world.bullet().destruction->lastSubsteps() *
                                               double(m_world.bullet().destruction->counts().elements))
-      m_put += l.elastic + std::max(0.0, l.dissipated);
+      m_put += std::max(0.0, l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed -
+                                 m_world.elementsPut() - l.gravity - l.exchanged);
     const double driven = m_case.impactor == Impactor::Kinematic ? std::max(0.0, l.exchanged) : 0;
     m_mostDriven = std::max(m_mostDriven, driven);
     const double put = m_put + l.gravity + m_mostDriven;

@@ -29,7 +29,7 @@ class EnergyBalance {
   double most() const { return m_most; }
 
   /// Six times what any run had that keeps the promise: of 1200 stiff and extreme cases one has 0.032 for one
-  /// tick, all others, scenes and what the tests do 0.005 or less. Two that do not keep it have 0.06.
+  /// tick, all others, scenes and what the tests do 0.005 or less. Two that did not keep it had 0.06.
   static constexpr double kTolerance = 0.2;
 
  private:

@@ -5,6 +5,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -32,6 +33,32 @@ constexpr double kCalmSpeed = 0.1;
 // sleep are helped to rest once they have been slower than this for half a second; they rise 3 mm by it
 // [m/s]. The half of a wall that a ball went through rings at 0.12.
 constexpr double kSettleSpeed = 0.25;
+// Roundings of Bullet's numbers from one tick to the next, over their largest: its own step, ours, and the
+// sum of both.
+constexpr double kRoundings = 4;
+
+// Where impulses taken as one at the tick's start give a body so many times the energy of rotation that it
+// had after the substeps, it turned too far in them for that.
+constexpr double kTurned = 1.05;
+
+// Of a body of unlike inertias, turned as it is after the substeps [J].
+double rotationOf(const edem::RigidProxy& proxy, const Eigen::Vector3d& spin) {
+  const Eigen::Vector3d own = proxy.orientation.conjugate() * spin;
+  double twice = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (proxy.inverseInertia[axis] > 0) twice += own[axis] * own[axis] / proxy.inverseInertia[axis];
+  return 0.5 * twice;
+}
+
+// What has one inertia about all axes gets the same by its impulses whenever they come.
+bool isUneven(const edem::RigidProxy& proxy) {
+  return proxy.inverseInertia.maxCoeff() > 1.01 * proxy.inverseInertia.minCoeff();
+}
+
+float roundingOf(const edem::RigidProxy& proxy) {
+  constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
+  return float(kRoundings * kEpsilon * proxy.position.cwiseAbs().maxCoeff());
+}
 
 }  // namespace
 
@@ -213,6 +240,7 @@ void Destruction::Impl::gatherProxies(double dt) {
       if (proxy.isDynamic()) {
         t.rigid = btRigidBody::upcast(object);
         proxy.placed = t.rigid && wasPlaced(*object);
+        if (t.rigid) proxy.rounding = roundingOf(proxy);
         t.link = link;
         t.velocity = toBullet(proxy.velocity);
         t.spin = toBullet(proxy.spin);
@@ -301,6 +329,10 @@ void Destruction::Impl::advance(double dt) {
       t.deltaSpin = toBullet(Eigen::Vector3d(locked->bottomRightCorner<3, 3>() * proxies[p].angularImpulse));
     }
     t.deltaVelocity = toBullet(change);
+    const Eigen::Vector3d turning = s.spin + dt * s.angularAcceleration, own = proxies[p].spin;
+    if (!s.mobility && proxies[p].isPressed() && isUneven(s) &&
+        rotationOf(proxies[p], turning + toEigen(t.deltaSpin)) > kTurned * rotationOf(proxies[p], own))
+      t.deltaSpin = toBullet(Eigen::Vector3d(own - turning));
     // Where Bullet brings it under the same impulses, taken as one at the tick's start.
     const btTransform begin(toBullet(s.orientation), toBullet(s.position));
     btTransformUtil::integrateTransform(

@@ -24,6 +24,14 @@ double furthest(const RigidProxy& proxy, const RigidPose& from) {
          from.orientation.angularDistance(proxy.orientation) * proxy.reach();
 }
 
+// For what elements weigh much more than, their springs press a float's rounding with more energy than it
+// has.
+void keepPlace(RigidProxy& proxy, const RigidPose& left, double light) {
+  if (!(proxy.inverseMass * light > 1)) return;
+  if ((proxy.position - left.position).cwiseAbs().maxCoeff() <= double(proxy.rounding))
+    proxy.position = left.position;
+}
+
 }  // namespace
 
 RigidPose poseOf(const RigidProxy& proxy) {
@@ -52,7 +60,7 @@ double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift) {
   return (proxy.velocity - drift).norm() + proxy.spin.norm() * proxy.reach();
 }
 
-void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap,
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap, double light,
                  std::vector<RigidState>& states) {
   states.assign(proxies.size(), {});
   for (std::size_t p = 0; p < proxies.size(); ++p) {
@@ -66,6 +74,7 @@ void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, do
       state.left = last->left;
       state.leapt = proxy.placed && furthest(proxy, last->left) > leap;
       state.moved = !state.leapt;
+      if (!proxy.placed) keepPlace(proxy, last->left, light);
       state.still = !proxy.isDynamic() && proxy.velocity.isZero(0) && proxy.spin.isZero(0) &&
                     proxy.position == last->left.position &&
                     proxy.orientation.coeffs() == last->left.orientation.coeffs();

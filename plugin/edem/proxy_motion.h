@@ -20,8 +20,8 @@ double speedOf(const RigidProxy& proxy, const Eigen::Vector3d& drift);
 
 /// Makes the proxies of a new tick ready to collect. `states` becomes theirs: what their contacts remember is
 /// taken from `before`, that of the last tick, by their keys; not of one that the application has put further
-/// away than `leap` [m].
-void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap,
+/// away than `leap` [m]. What rounding alone moves, and weighs less than `light` [kg], is where that left it.
+void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, double leap, double light,
                  std::vector<RigidState>& states);
 
 /// Moves the proxies (symplectic Euler) by the forces in their states and books what passed between them and

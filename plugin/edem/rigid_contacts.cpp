@@ -20,11 +20,11 @@ constexpr double kBlow = 1e-3;
 }  // namespace
 
 template <class Real>
-void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, double leap) {
+void RigidContacts<Real>::beginTick(std::span<RigidProxy> proxies, double leap, double light) {
   m_lists.keep(m_states);
   m_proxies = proxies;
   std::swap(m_before, m_states);
-  takeProxies(proxies, m_before, leap, m_states);
+  takeProxies(proxies, m_before, leap, light, m_states);
   for (const RigidState& state : m_states)
     if (state.leapt) m_lists.part(state.key);
 }

@@ -19,8 +19,8 @@ class RigidContacts {
   using Bodies = std::span<const std::unique_ptr<Body<Real>>>;
 
   /// Takes the proxies of a new tick; what contacts remember stays, but for those at proxies that the
-  /// application has put further away than `leap` [m].
-  void beginTick(std::span<RigidProxy> proxies, double leap);
+  /// application has put further away than `leap` [m]. Of bodies lighter than `light` [kg] see takeProxies.
+  void beginTick(std::span<RigidProxy> proxies, double leap, double light);
   /// Elements marked in `which` of a body have become another, between two ticks: what is remembered of them
   /// goes along.
   void split(std::uint32_t id, std::span<const std::uint8_t> which, std::uint32_t newId);

@@ -40,6 +40,9 @@ struct RigidProxy {
   std::vector<std::uint32_t> spared;  ///< bodies whose elements it does not touch (ids)
 
   bool placed = false;  ///< the application has put it elsewhere since the last tick: no way, but a place
+  /// What the host's number for its place may be wrong by: as near to where the last tick left it, a light
+  /// body is there still [m].
+  float rounding = 0;
 
   std::vector<std::uint32_t> bears;  ///< bodies whose anchors hold to it (ids): it touches only what is free
 

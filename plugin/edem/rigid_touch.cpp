@@ -8,6 +8,10 @@
 namespace rubble::edem {
 namespace {
 
+// Depth, over the reach of a cell, that the springs of its faces are pressed by at most: ten times as deep as
+// it is thick.
+constexpr double kMostReaches = 20;
+
 // How a fragment moves against a rigid body at one of its elements, and what it withholds there.
 struct Parting {
   Eigen::Vector3d centre, spin;  // of the element's centre [m/s], [rad/s]
@@ -104,6 +108,7 @@ struct FaceStep {
   const ElementMotion& motion;
   double moved;  // [s]
   double way;    // further than any point of the element comes [m]
+  double most;   // deepest that springs are pressed [m]
 
   double nearer(const FaceHit& hit) const {
     return -moved * scalarDot(hit.normal, velocityAt(hit.at, motion.centre, motion.spin));
@@ -148,6 +153,24 @@ double giveWay(std::span<FaceHit> hits, const FaceStep& step, FaceMemory& memory
   return lost;
 }
 
+// What is pressed many times deeper than it is thick gives way. The forces of the weights' changes go with
+// depth^2, and turn round where a face stands upright: deeper, no substep is short enough for them. What
+// springs lose is as in giveWay. Returns it [J].
+double yieldBeyond(std::span<const FaceHit> hits, double deepest, const FaceStep& step, FaceMemory& memory) {
+  const double over = deepest - memory.sunk - step.most;
+  if (!(over > 0) || !(step.moved > 0)) return 0;
+  double lost = 0;
+  for (const FaceHit& hit : hits) {
+    const double depth = hit.depth - memory.sunk;
+    if (!(depth > 0)) continue;
+    const double left = std::max(0.0, depth - over), way = std::min(step.nearer(hit), depth + memory.yielded);
+    lost += 0.5 * step.law.stiffness * hit.weight * (depth - left) * (depth + left - way);
+  }
+  memory.sunk += over;
+  memory.yielded += over;
+  return lost;
+}
+
 // The faces' depth without force: that in which they were first seen, or in which they are because they have
 // just been exposed, for what they cannot have come in the last step; and that by which they gave way. It
 // gives way as they leave. They have one of it, so that all give way together. Returns what the springs lost
@@ -161,7 +184,8 @@ double sinkFaces(std::span<FaceHit> hits, double deepest, double exposed, const 
   memory.deepest = deepest;
   memory.sunk = std::min(memory.sunk, deepest);
   if (step.moved > 0) memory.yielded = 0;  // looked at again, it gave way by what it gave
-  return giveWay(hits, step, memory);
+  const double lost = giveWay(hits, step, memory);
+  return lost + yieldBeyond(hits, deepest, step, memory);
 }
 
 // What a corner has come nearer to another element of the body in the last step, along the normal of its hit
@@ -261,8 +285,8 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
                                parting.jolt, parting.share};
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
-  out.slipped =
-      sink(c, body, corners, {law, own, moved, 2 * moved * fastest}, fragment, side, turn, work.faces);
+  out.slipped = sink(c, body, corners, {law, own, moved, 2 * moved * fastest, kMostReaches * cells.reach[i]},
+                     fragment, side, turn, work.faces);
   const FacePress press = facePress(work.faces.hits(), law, own, {work.moved, work.steps.next});
   if (!(press.weight > 0)) {
     out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);

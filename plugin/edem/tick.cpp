@@ -21,6 +21,8 @@ namespace {
 
 // Skin of the candidate lists in radii: half of it is what an element may move before a new listing.
 constexpr double kSkinRadii = 0.5;
+// A rigid body is light beside an element of which it has less than this share.
+constexpr double kLight = 1e-3;
 
 // Of the elements of all bodies; infinite where there are none [m].
 template <class Real>
@@ -28,6 +30,15 @@ double smallestRadius(const World<Real>& w) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& body : w.bodies) radius = std::min(radius, double(body->constants->radius));
   return radius;
+}
+
+// Rigid bodies that are lighter than this are so beside every element; 0 where there are none [kg].
+template <class Real>
+double lightBody(const World<Real>& w) {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const auto& body : w.bodies)
+    for (const double mass : body->constants->mass) lightest = std::min(lightest, mass);
+  return std::isfinite(lightest) ? kLight * lightest : 0;
 }
 
 // `left`: of the tick [s].
@@ -213,7 +224,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
   w.report.warning.clear();
   if (!std::isfinite(dt)) w.failure = "the time step is not finite";
   if (!w.failure.empty() || !(dt > 0)) return;
-  w.rigid.beginTick(proxies, smallestRadius(w));
+  w.rigid.beginTick(proxies, smallestRadius(w), lightBody(w));
   w.resting.beginTick(gravity);
   w.stepLength.beginTick(w.bodies);
   hardenContacts(w);

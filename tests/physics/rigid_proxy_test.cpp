@@ -67,5 +67,29 @@ TYPED_TEST(RigidBody, BlockRestsOnThePlane) {
   EXPECT_NEAR(solver->position(id, 0).y(), 0.1 - overlap, 0.02 * overlap);
 }
 
+// The host's float of a place is wrong by `rounding`. What is light beside an element is where the substeps
+// left it while the host tells no more than that; all else is where the host has it.
+TYPED_TEST(RigidBody, RoundingDoesNotMoveALightBody) {
+  constexpr double kRounding = 1e-5, kElement = 19.2;
+  const auto placeAfter = [&](double mass, double shift, bool placed) {
+    const auto solver = makeSolver<TypeParam>();
+    solver->addBody(block({1, 1, 1}), kNoGravity);
+    std::vector<edem::RigidProxy> proxies = {ball(0.1, mass, {175, 1, 0}, kNoGravity)};
+    proxies[0].key = 1;
+    proxies[0].rounding = float(kRounding);
+    solver->tick(kFrame, kNoGravity, proxies);
+    proxies[0].position.x() += shift;
+    proxies[0].placed = placed;
+    solver->tick(kFrame, kNoGravity, proxies);
+    return proxies[0].position.x() - 175;
+  };
+  EXPECT_EQ(placeAfter(4e-6 * kElement, 0.5 * kRounding, false), 0);
+  EXPECT_NEAR(placeAfter(4e-6 * kElement, 1.5 * kRounding, false), 1.5 * kRounding, 1e-9)
+      << "moved by the host";
+  EXPECT_NEAR(placeAfter(4e-6 * kElement, 0.5 * kRounding, true), 0.5 * kRounding, 1e-9)
+      << "by the application";
+  EXPECT_NEAR(placeAfter(0.01 * kElement, 0.5 * kRounding, false), 0.5 * kRounding, 1e-9) << "heavier";
+}
+
 }  // namespace
 }  // namespace rubble::test
