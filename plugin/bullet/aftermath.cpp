@@ -18,7 +18,7 @@ void Destruction::Impl::breakElements() {
   for (base::CrushedElement c : solver->report().crushed) {
     DestructibleBody* body = bodyOf(c.body);
     if (!body) continue;
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     ++crushed;
     c.maxRadius = debris::maxRadius(own.bondConstants[c.element], c.fractureEnergy);
     try {

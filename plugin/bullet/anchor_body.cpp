@@ -135,7 +135,7 @@ RUBBLE_ABI_BEGIN
 
 void Destruction::Impl::setAnchorBody(DestructibleBody& body, btRigidBody* base, const edem::Twist& motion) {
   energyBalance.beginAnew();
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   own.anchorBody = {};
   if (base) own.anchorBody = bullet::anchorTo(*base, solver->heldFrame(own.id));
   solver->setBase(own.id, motion);
@@ -143,7 +143,7 @@ void Destruction::Impl::setAnchorBody(DestructibleBody& body, btRigidBody* base,
 
 void Destruction::Impl::carryAnchored(double dt) {
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     bullet::AnchorBody& anchor = own.anchorBody;
     if (!anchor.body) continue;
     if (!bullet::isThere(world, anchor)) {
@@ -166,7 +166,7 @@ void Destruction::Impl::carryAnchored(double dt) {
 }
 
 void Destruction::Impl::rideAnchored(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   bullet::AnchorBody& anchor = own.anchorBody;
   anchor.ridden = solver->view(own.id).anchorsIntact > 0 && bullet::isFinite(*anchor.body);
   if (!anchor.ridden) {
@@ -182,14 +182,14 @@ void Destruction::Impl::rideAnchored(DestructibleBody& body) {
 double Destruction::Impl::speedOn(const btCollisionObject& object, const DestructibleBody& own) const {
   double fastest = solver->maxSpeed(own.id());
   for (const DestructibleBody* body : bodies)
-    if (body->impl().anchorBody.ridden && body->impl().anchorBody.is(object))
+    if (implOf(*body).anchorBody.ridden && implOf(*body).anchorBody.is(object))
       fastest = std::max(fastest, solver->maxSpeed(body->id()));
   return fastest;
 }
 
 void Destruction::Impl::waitForAnchored() {
   for (DestructibleBody* body : bodies) {
-    const bullet::AnchorBody& anchor = body->impl().anchorBody;
+    const bullet::AnchorBody& anchor = implOf(*body).anchorBody;
     if (anchor.body && anchor.ridden && body->isActive() && bullet::isThere(world, anchor) &&
         anchor.body->isActive())
       bullet::waitTogether(*body, *anchor.body);
@@ -199,8 +199,8 @@ void Destruction::Impl::waitForAnchored() {
 // What anchors hold stands or hangs on that body by them.
 void Destruction::Impl::bearAnchored() {
   for (const DestructibleBody* body : bodies)
-    for (std::size_t p = 0; body->impl().anchorBody.body && p < proxies.size(); ++p)
-      if (body->impl().anchorBody.is(*touched[p].object)) proxies[p].bears.push_back(body->id());
+    for (std::size_t p = 0; implOf(*body).anchorBody.body && p < proxies.size(); ++p)
+      if (implOf(*body).anchorBody.is(*touched[p].object)) proxies[p].bears.push_back(body->id());
 }
 
 RUBBLE_ABI_END

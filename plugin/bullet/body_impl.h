@@ -66,6 +66,23 @@ struct DestructibleBody::Impl {
   std::vector<btCollisionObject*> near;  ///< noted by the narrowphase of this tick
 };
 
+/// What stands behind the two public classes, for our own files and tests alone.
+struct ImplAccess {
+  template <class T>
+  static auto& of(T& object) {
+    return *object.m_impl;
+  }
+};
+inline DestructibleBody::Impl& implOf(DestructibleBody& body) {
+  return ImplAccess::of(body);
+}
+inline const DestructibleBody::Impl& implOf(const DestructibleBody& body) {
+  return ImplAccess::of(body);
+}
+inline Destruction::Impl& implOf(Destruction& destruction) {
+  return ImplAccess::of(destruction);
+}
+
 /// Marks our bodies for upcast, beside the collision type btRigidBody sets.
 inline constexpr int kDestructibleMark = 0x52554242;  // "RUBB"
 

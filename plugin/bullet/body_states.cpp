@@ -29,19 +29,19 @@ void showInBullet(DestructibleBody& body, const btTransform& at, const btVector3
 }
 
 void beElements(DestructibleBody& body) {
-  ElementShape& shape = *body.impl().shape;
+  ElementShape& shape = *implOf(body).shape;
   btVector3 inertia;
-  shape.calculateLocalInertia(btScalar(body.impl().whole.mass), inertia);
+  shape.calculateLocalInertia(btScalar(implOf(body).whole.mass), inertia);
   body.setCollisionShape(&shape);
-  body.setMassProps(btScalar(body.impl().whole.mass), inertia);
+  body.setMassProps(btScalar(implOf(body).whole.mass), inertia);
   const btVector3 none(0, 0, 0);
   showInBullet(body, body.getWorldTransform(), none, none);
   body.clearForces();
-  body.setGravity(body.impl().settings.gravity);
+  body.setGravity(implOf(body).settings.gravity);
   // Of what the application does to it; the elements take that from there.
-  body.setLinearFactor(body.impl().settings.linearFactor);
-  body.setAngularFactor(body.impl().settings.angularFactor);
-  body.impl().fixed = body.impl().held;
+  body.setLinearFactor(implOf(body).settings.linearFactor);
+  body.setAngularFactor(implOf(body).settings.angularFactor);
+  implOf(body).fixed = implOf(body).held;
   body.updateInertiaTensor();
   // Bullet's solver makes no contact rows against this body; its manifolds are ours.
   body.setContactProcessingThreshold(-BT_LARGE_FLOAT);
@@ -50,7 +50,7 @@ void beElements(DestructibleBody& body) {
 }
 
 void beRigid(DestructibleBody& body, const btTransform& at) {
-  const WholeShape& whole = body.impl().whole;
+  const WholeShape& whole = implOf(body).whole;
   body.setCollisionShape(whole.shape.get());
   body.setMassProps(btScalar(whole.mass), whole.inertia);
   body.setWorldTransform(at);
@@ -62,8 +62,8 @@ void beNewRigid(DestructibleBody& body, const btTransform& at) {
   beRigid(body, at);
   body.setFriction(btScalar(std::max(0.0, body.material().friction)));
   body.setRestitution(btScalar(body.material().restitution));
-  if (!hasGyroscopicTerm(body.impl().whole.inertia)) body.setFlags(body.getFlags() & ~kGyroscopic);
-  if (!body.impl().held) return;
+  if (!hasGyroscopicTerm(implOf(body).whole.inertia)) body.setFlags(body.getFlags() & ~kGyroscopic);
+  if (!implOf(body).held) return;
   body.setLinearFactor({0, 0, 0});
   body.setAngularFactor({0, 0, 0});
   body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);

@@ -14,7 +14,7 @@ CouplerConstraint::CouplerConstraint(DestructibleBody& body, Destruction::Impl& 
 }
 
 void CouplerConstraint::buildJacobian() {
-  m_body.impl().inSolver = true;
+  implOf(m_body).inSolver = true;
   m_world.advance(double(m_world.world.getSolverInfo().m_timeStep));
 }
 

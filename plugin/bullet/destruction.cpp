@@ -27,14 +27,14 @@ DestructibleBody* Destruction::addBody(const DestructibleBodyDef& def) {
 
 void Destruction::removeBody(DestructibleBody* body) {
   m_impl->wakeTouching(*body);
-  const bullet::AnchorBody& base = body->impl().anchorBody;
+  const bullet::AnchorBody& base = implOf(*body).anchorBody;
   if (base.ridden && bullet::isThere(m_impl->world, base)) base.body->activate();
   m_impl->world.removeRigidBody(body);
   delete body;
 }
 
 void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody) {
-  if (body->impl().whole.shape) throw Error("anchorBody: of a body that Bullet may move as a whole");
+  if (implOf(*body).whole.shape) throw Error("anchorBody: of a body that Bullet may move as a whole");
   edem::Twist motion;
   if (anchorBody) {
     bullet::requireAnchorBody(m_impl->world, *anchorBody, body->elementMass());
@@ -45,7 +45,7 @@ void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody)
 
 void Destruction::strike(DestructibleBody* body) {
   if (!body->isWhole()) return;
-  body->impl().struck = true;
+  implOf(*body).struck = true;
   body->activate(true);
 }
 

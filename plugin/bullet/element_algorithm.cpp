@@ -53,11 +53,11 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     const double margin = m_isQuery ? double(result->m_closestPointDistanceThreshold)
                                     : double(m_manifold->getContactBreakingThreshold());
     const DestructibleBody& own = ownA ? *ownA : *ownB;
-    if (!own.impl().world) return;
+    if (!implOf(own).world) return;
     for (const NearPoint& p : m_isQuery ? nearCells(own, ownA ? *second : *first, margin)
                                         : nearSpheres(own, ownA ? *b : *a, margin, m_resting)) {
       // Bullet wants the point on the second object, and the normal from it to the first.
-      if (!m_isQuery) m_touching = m_touching || p.distance < own.impl().shape->margin();
+      if (!m_isQuery) m_touching = m_touching || p.distance < implOf(own).shape->margin();
       const Eigen::Vector3d onElement = p.point + p.distance * p.normal;
       result->addContactPoint(toBullet(ownB ? Eigen::Vector3d(-p.normal) : p.normal),
                               toBullet(ownB ? onElement : p.point), btScalar(p.distance));
@@ -74,11 +74,11 @@ class ElementAlgorithm : public btCollisionAlgorithm {
     // A character walks by its ghost's sweeps, sinks into what it stands on and would crush it.
     const bool isGhost = other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
     if (isGhost || !other.hasContactResponse()) return;
-    const_cast<DestructibleBody&>(own).impl().near.push_back(const_cast<btCollisionObject*>(&other));
+    implOf(const_cast<DestructibleBody&>(own)).near.push_back(const_cast<btCollisionObject*>(&other));
   }
 
   static void meet(const DestructibleBody& own, const btSoftBody& soft, const btDispatcherInfo& info) {
-    if (Destruction::Impl* world = own.impl().world)
+    if (Destruction::Impl* world = implOf(own).world)
       world->softContacts.meet(const_cast<DestructibleBody&>(own), const_cast<btSoftBody&>(soft),
                                double(info.m_timeStep));
   }

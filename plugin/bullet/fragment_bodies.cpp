@@ -22,16 +22,16 @@ constexpr std::uint32_t kMostShares = 64;
 
 // What the application has said of a body that is there for all that comes of it.
 void takeSettings(DestructibleBody& from, const btVector3& gravity, DestructibleBody& to) {
-  to.impl().settings = from.impl().settings;
-  to.impl().settings.gravity = bullet::ownGravity(from, gravity).value_or(bullet::noGravity());
+  implOf(to).settings = implOf(from).settings;
+  implOf(to).settings.gravity = bullet::ownGravity(from, gravity).value_or(bullet::noGravity());
   to.setFriction(from.getFriction());
   to.setRollingFriction(from.getRollingFriction());
   to.setSpinningFriction(from.getSpinningFriction());
   to.setRestitution(from.getRestitution());
-  to.setLinearFactor(from.impl().fixed ? from.impl().freeLinear : from.getLinearFactor());
-  to.setAngularFactor(from.impl().fixed ? from.impl().freeAngular : from.getAngularFactor());
-  to.impl().settings.linearFactor = to.getLinearFactor();
-  to.impl().settings.angularFactor = to.getAngularFactor();
+  to.setLinearFactor(implOf(from).fixed ? implOf(from).freeLinear : from.getLinearFactor());
+  to.setAngularFactor(implOf(from).fixed ? implOf(from).freeAngular : from.getAngularFactor());
+  implOf(to).settings.linearFactor = to.getLinearFactor();
+  implOf(to).settings.angularFactor = to.getAngularFactor();
   for (int i = 0; i < from.getNumObjectsWithoutCollision(); ++i)
     to.setIgnoreCollisionCheck(from.getObjectWithoutCollision(i), true);
 }
@@ -41,7 +41,7 @@ void takeSettings(DestructibleBody& from, const btVector3& gravity, Destructible
 // Of a body that no anchor holds the heaviest fragment is what is left of it.
 std::vector<std::uint32_t> Destruction::Impl::fragmentsToSplit(const DestructibleBody& body) {
   const edem::BodyView view = solver->view(body.id());
-  if (view.asleep || view.fragments < 2 || body.impl().jointed || body.isWhole()) return {};
+  if (view.asleep || view.fragments < 2 || implOf(body).jointed || body.isWhole()) return {};
   fragmentSizes.assign(view.fragment.size(), {});
   for (std::size_t i = 0; i < view.fragment.size(); ++i) {
     if (view.fragment[i] == kNoElement) continue;
@@ -73,7 +73,7 @@ void Destruction::Impl::splitBodies() {
 void Destruction::Impl::splitBody(DestructibleBody& body, std::uint32_t root) {
   const std::optional<std::uint32_t> id = solver->split(body.id(), root);
   if (!id) return;  // it touches others
-  const DestructibleBody::Impl& from = body.impl();
+  const DestructibleBody::Impl& from = implOf(body);
   auto impl = std::make_unique<DestructibleBody::Impl>();
   impl->world = this;
   impl->id = *id;
@@ -95,8 +95,8 @@ void Destruction::Impl::splitBody(DestructibleBody& body, std::uint32_t root) {
   const btRigidBody::btRigidBodyConstructionInfo info(btScalar(size.mass), nullptr, impl->shape.get(),
                                                       inertia);
   auto* part = new DestructibleBody(info, std::move(impl));
-  part->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*part, *this);
-  part->impl().shape->setObject(*part);
+  implOf(*part).coupler = std::make_unique<bullet::CouplerConstraint>(*part, *this);
+  implOf(*part).shape->setObject(*part);
   takeSettings(body, world.getGravity(), *part);
   bullet::beElements(*part);
   showElements(*part);

@@ -44,7 +44,7 @@ void Destruction::Impl::freezeCalm(double dt) {
   if (!advanced || !failure.empty()) return;
   BT_PROFILE("Rubble freeze calm");
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Elements || !own.whole.shape) continue;
     const std::optional<edem::Unrest> unrest = solver->unrest(own.id);
     const bool calm = unrest && isCalm(*unrest, bullet::strikingSpeed(own.material), solver->radius(own.id));
@@ -56,7 +56,7 @@ void Destruction::Impl::freezeCalm(double dt) {
 
 // Bullet has moved what was in its solver; it takes the body from its next tick on.
 void Destruction::Impl::freeze(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const edem::ParkedMotion motion = *solver->park(own.id);
   own.state = DestructibleBody::Impl::State::Whole;
   ++wholes;

@@ -53,7 +53,7 @@ std::optional<btVector3> Destruction::Impl::takeGravity(DestructibleBody& body) 
 void Destruction::Impl::takeHostMoves(double dt) {
   BT_PROFILE("Rubble take host moves");
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Elements || !isFinite(*body)) continue;
     takeGravity(*body);
     // Bullet stops what it puts to sleep, and lets no force act on it.

@@ -36,7 +36,7 @@ std::uint32_t nearestElement(const edem::Solver& solver, std::uint32_t body, con
 void Destruction::Impl::gatherJoints() {
   std::swap(joints, lastJoints);
   joints.clear();
-  for (DestructibleBody* body : bodies) body->impl().jointed = false;
+  for (DestructibleBody* body : bodies) implOf(*body).jointed = false;
   for (int i = 0; i < world.getNumConstraints(); ++i) {
     btTypedConstraint* joint = world.getConstraint(i);
     if (!joint->isEnabled() || dynamic_cast<bullet::CouplerConstraint*>(joint)) continue;
@@ -51,11 +51,11 @@ void Destruction::Impl::gatherJoints() {
         if (held.ends[e].body == last.ends[e].body) held.ends[e] = last.ends[e];
     }
     for (bullet::JointEnd& end : held.ends)
-      if (end.body) end.body->impl().jointed = true;
+      if (end.body) implOf(*end.body).jointed = true;
     joints.push_back(held);
   }
   for (DestructibleBody* body : bodies) {
-    const DestructibleBody::Impl& own = body->impl();
+    const DestructibleBody::Impl& own = implOf(*body);
     if (!body->isWhole() && (own.jointed || own.shown.fragment != kNoElement)) takeFragment(*body);
   }
 }
@@ -78,7 +78,7 @@ void Destruction::Impl::forgetJointsOf(const DestructibleBody& body) {
 
 // Bullet sees of a body that a joint holds the fragment which is held. Places do not change, frames do.
 void Destruction::Impl::takeFragment(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const std::uint32_t before = own.shown.fragment;
   chooseFragment(body);
   if (own.shown.fragment == before || solver->view(own.id).asleep) return;
@@ -94,7 +94,7 @@ void Destruction::Impl::takeFragment(DestructibleBody& body) {
 // The heaviest that a joint holds. Of two joints that hold what has parted the other lets go: Bullet has one
 // body for them.
 void Destruction::Impl::chooseFragment(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const edem::BodyView view = solver->view(own.id);
   std::map<std::uint32_t, double> masses;
   for (bullet::HeldJoint& held : joints)

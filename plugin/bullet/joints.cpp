@@ -77,7 +77,7 @@ std::vector<std::uint32_t> bearing(const edem::Solver& solver, const Destructibl
                                    std::uint32_t element, const Eigen::Vector3d& pivot) {
   const edem::BodyView view = solver.view(body.id());
   const std::vector<Eigen::Vector3d>& rest = body.asset()->positions;
-  const Eigen::Vector3d at = body.impl().shown.frame * pivot;
+  const Eigen::Vector3d at = implOf(body).shown.frame * pivot;
   const double reach = (rest[element] - at).norm() + kBearingRadii * solver.radius(body.id());
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < view.alive.size(); ++i)
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> bearing(const edem::Solver& solver, const Destructibl
 void Destruction::Impl::loadJoints(double dt) {
   if (joints.empty()) return;
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (own.jointed)
       own.jointAngular = jointWrench(*body, solver->motion(own.id, own.shown.fragment)).angular;
   }
@@ -124,7 +124,7 @@ void Destruction::Impl::poseJoints(double dt) {
   if (joints.empty() || !failure.empty()) return;
   const double share = solver->report().kicked / dt;
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (!own.jointed || solver->view(own.id).asleep) continue;
     if (solver->view(own.id).fragments > 1) chooseFragment(*body);
     const edem::RigidMotion motion = solver->motion(own.id, own.shown.fragment);
@@ -153,7 +153,7 @@ void Destruction::Impl::poseJoints(double dt) {
 // swing. Bullet's own bodies are still where the tick began: against those it is put back by half the way
 // that they are about to go.
 btTransform Destruction::Impl::placeForJoints(const DestructibleBody& body, double dt) const {
-  const DestructibleBody::Impl& own = body.impl();
+  const DestructibleBody::Impl& own = implOf(body);
   const edem::Placement at = solver->placement(own.id, own.shown.fragment);
   const btTransform from = body.getWorldTransform(), to = toBullet(at.place * own.shown.frame);
   const btTransform place(from.getRotation().slerp(to.getRotation(), btScalar(0.5)),
@@ -179,7 +179,7 @@ btTransform Destruction::Impl::placeForJoints(const DestructibleBody& body, doub
 // Of all joints of a body about the centre of `motion`, at the places where its elements are now.
 bullet::JointImpulse Destruction::Impl::jointWrench(const DestructibleBody& body,
                                                     const edem::RigidMotion& motion) const {
-  const DestructibleBody::Impl& own = body.impl();
+  const DestructibleBody::Impl& own = implOf(body);
   const edem::Placement at = solver->placement(own.id, own.shown.fragment);
   bullet::JointImpulse sum;
   for (const bullet::HeldJoint& held : joints)
@@ -221,7 +221,7 @@ void Destruction::Impl::takeJoints(double dt) {
   for (bullet::HeldJoint& held : joints)
     for (int e = 0; e < 2; ++e) {
       bullet::JointEnd& end = held.ends[e];
-      if (!end.body || !end.body->impl().inSolver || solver->view(end.body->id()).asleep) continue;
+      if (!end.body || !implOf(*end.body).inSolver || solver->view(end.body->id()).asleep) continue;
       end.impulse = {};
       if (end.element == kNoElement || !held.joint->isEnabled() || !held.joint->getJointFeedback()) continue;
       const bullet::JointImpulse solved = solvedImpulse(held, e, dt);
@@ -232,7 +232,7 @@ void Destruction::Impl::takeJoints(double dt) {
     held.lent = false;
   }
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (!own.jointed || !own.inSolver || solver->view(own.id).asleep) continue;
     if (!body->getLinearFactor().isZero()) pushJointed(*body, dt);
   }
@@ -240,7 +240,7 @@ void Destruction::Impl::takeJoints(double dt) {
 
 // What anchors hold has it as a load in the next tick only.
 void Destruction::Impl::pushJointed(DestructibleBody& body, double dt) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const edem::RigidMotion motion = solver->motion(own.id, own.shown.fragment);
   if (!(motion.mass > 0)) return;
   const bullet::JointImpulse solved = jointWrench(body, motion);

@@ -42,11 +42,11 @@ void keepFour(std::vector<NearPoint>& points) {
 class Surface {
  public:
   Surface(const DestructibleBody& own, const btCollisionObject& other, double margin)
-      : m_solver(*own.impl().world->solver), m_id(own.id()), m_margin(margin) {
-    Eigen::AlignedBox3d reached = own.impl().shape->box();
+      : m_solver(*implOf(own).world->solver), m_id(own.id()), m_margin(margin) {
+    Eigen::AlignedBox3d reached = implOf(own).shape->box();
     reached.min().array() -= margin;
     reached.max().array() += margin;
-    m_proxy = own.impl().world->proxyMaker.make(other, std::span(&reached, 1));
+    m_proxy = implOf(own).world->proxyMaker.make(other, std::span(&reached, 1));
     m_radius = m_solver.radius(m_id);
     m_box = m_proxy.bounds();
     m_box.min().array() -= m_radius + margin;
@@ -77,7 +77,7 @@ class Surface {
 // As they are now, without points.
 RestingPoints restNow(const DestructibleBody& own, const btCollisionObject& other, double margin) {
   RestingPoints rest{{},
-                     own.impl().world->solver->view(own.id()).sleepChanges,
+                     implOf(own).world->solver->view(own.id()).sleepChanges,
                      other.getCollisionShape(),
                      other.getWorldTransform(),
                      {},
@@ -103,11 +103,11 @@ void addNearCells(const DestructibleBody& own, const btCollisionShape& shape, co
   }
   const bool isPlane = shape.getShapeType() == STATIC_PLANE_PROXYTYPE;
   if (!isPlane && !shape.isConvex()) return;
-  const edem::Solver& solver = *own.impl().world->solver;
+  const edem::Solver& solver = *implOf(own).world->solver;
   btVector3 low, high;
   shape.getAabb(place, low, high);
   const btVector3 grow = btVector3(1, 1, 1) * btScalar(margin);
-  for (const std::uint32_t i : own.impl().shape->elementsNear(low - grow, high + grow)) {
+  for (const std::uint32_t i : implOf(own).shape->elementsNear(low - grow, high + grow)) {
     const CellShape cell(solver.cells(own.id()), i, solver.radius(own.id()));
     const Eigen::Vector3d at = solver.position(own.id(), i);
     const btTransform turn(toBullet(solver.orientation(own.id(), i)));
@@ -130,10 +130,10 @@ void addNearCells(const DestructibleBody& own, const btCollisionShape& shape, co
 std::vector<NearPoint> nearSpheres(const DestructibleBody& own, const btCollisionObject& other, double margin,
                                    std::unique_ptr<RestingPoints>& resting) {
   const Surface surface(own, other, margin);
-  const edem::BodyView view = own.impl().world->solver->view(own.id());
+  const edem::BodyView view = implOf(own).world->solver->view(own.id());
   const auto addThatSleep = [&](bool sleep, std::vector<NearPoint>& points) {
     for (const std::uint32_t i :
-         own.impl().shape->elementsNear(toBullet(surface.box().min()), toBullet(surface.box().max())))
+         implOf(own).shape->elementsNear(toBullet(surface.box().min()), toBullet(surface.box().max())))
       if (bool(view.sleeping[i]) == sleep) surface.addNear(i, points);
     keepFour(points);
   };

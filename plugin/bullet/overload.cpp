@@ -30,7 +30,7 @@ constexpr double kEaseRate = 50, kEaseTimes = 50;
 
 // Bullet's axes of the body, about its elements' centre.
 Eigen::Isometry3d loadFrame(const DestructibleBody& body) {
-  return toEigen(body.getWorldTransform()) * Eigen::Translation3d(body.impl().whole.elementCentre);
+  return toEigen(body.getWorldTransform()) * Eigen::Translation3d(implOf(body).whole.elementCentre);
 }
 
 // Bullet's solver leaves the impulses of points that it does not see as they were.
@@ -58,7 +58,7 @@ void Destruction::Impl::gatherPatches(double dt) {
       DestructibleBody* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
       if (!body || !body->isWhole() || !body->isActive()) continue;
       if (auto patch = bullet::contactPatch(manifold, second, loadFrame(*body), dt))
-        body->impl().patches.push_back(std::move(*patch));
+        implOf(*body).patches.push_back(std::move(*patch));
     }
   }
 }
@@ -68,7 +68,7 @@ void Destruction::Impl::noteLoads(double dt) {
   BT_PROFILE("Rubble note loads");
   gatherPatches(dt);
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (!body->isWhole() || !body->isActive()) continue;
     if (own.patches.empty() && !own.held && own.gauge->share() < kForgotten) {
       own.gauge->reset();
@@ -91,13 +91,13 @@ void Destruction::Impl::noteLoads(double dt) {
 }
 
 void Destruction::Impl::beginEasing(DestructibleBody& body) {
-  const double frequency = body.impl().gauge->slowestBending();
-  body.impl().easeTime = kEaseTimes / frequency;
+  const double frequency = implOf(body).gauge->slowestBending();
+  implOf(body).easeTime = kEaseTimes / frequency;
   solver->setEasing(body.id(), kEaseRate * frequency);
 }
 
 void Destruction::Impl::ease(DestructibleBody& body, double dt) {
-  double& left = body.impl().easeTime;
+  double& left = implOf(body).easeTime;
   if (!(left > 0)) return;
   left -= dt;
   if (!(left > 0)) solver->setEasing(body.id(), 0);

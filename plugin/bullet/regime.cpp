@@ -77,7 +77,7 @@ Eigen::AlignedBox3d reachedBox(const DestructibleBody& body, double way) {
 }  // namespace
 
 void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDef& bodyDef) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   if (own.anchorBody.body) {
     if (def.log)
       def.log(LogLevel::Info, own.name + ": stays elements: its anchors hold to a body that may move");
@@ -105,8 +105,8 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
 }
 
 void Destruction::Impl::placeWhole(DestructibleBody& body) {
-  const Eigen::Isometry3d place = toEigen(body.getWorldTransform()) * body.impl().whole.frame.inverse();
-  solver->place(body.impl().id, place);
+  const Eigen::Isometry3d place = toEigen(body.getWorldTransform()) * implOf(body).whole.frame.inverse();
+  solver->place(implOf(body).id, place);
 }
 
 bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
@@ -116,7 +116,7 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
   const Sweep sweep(body, dt);
   double bound = sweep.turning;
   if (elements) {
-    bound += elements->impl().speed + double(sweep.velocity.length());
+    bound += implOf(*elements).speed + double(sweep.velocity.length());
   } else {
     const Sweep partner(other, dt);
     bound += partner.turning + double((sweep.velocity - partner.velocity).length());
@@ -139,7 +139,7 @@ void Destruction::Impl::thawStruck(double dt) {
   BT_PROFILE("Rubble thaw struck");
   std::vector<DestructibleBody*> struck;
   for (DestructibleBody* body : bodies)
-    if (body->isWhole() && body->impl().struck) struck.push_back(body);
+    if (body->isWhole() && implOf(*body).struck) struck.push_back(body);
   const auto look = [&](btCollisionObject& object, btCollisionObject& other) {
     DestructibleBody* body = DestructibleBody::upcast(&object);
     if (!body || !body->isWhole() || std::find(struck.begin(), struck.end(), body) != struck.end()) return;
@@ -158,7 +158,7 @@ void Destruction::Impl::thawStruck(double dt) {
 
 // The elements take over in this very tick; Bullet's part of the body follows when its tick is over.
 void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   placeWhole(body);
   const std::optional<btVector3> gravity = takeGravity(body);
   const btVector3 velocity =
@@ -210,7 +210,7 @@ void Destruction::Impl::cleanPairs(DestructibleBody& body) {
 // Now that Bullet has moved what was in its solver.
 void Destruction::Impl::finishThaws() {
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Thawing) continue;
     own.state = DestructibleBody::Impl::State::Elements;
     body->setCollisionFlags(own.flags);

@@ -26,7 +26,7 @@ std::uint32_t heaviestFragment(const edem::BodyView& view) {
 
 // To Bullet's joints an anchored body is as heavy as the world.
 void holdAnchored(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const bool fixed = own.jointed && own.shown.anchored;
   if (fixed && !own.fixed) {
     own.freeLinear = body.getLinearFactor();
@@ -47,7 +47,7 @@ void holdAnchored(DestructibleBody& body) {
 // A body in one piece has the frame that it has as a whole, so that what is fixed in that stays where it is;
 // what has lost something has its origin in its centre of mass.
 btTransform Destruction::Impl::placeOfShown(DestructibleBody& body, const edem::RigidMotion& motion) const {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   bullet::Shown& shown = own.shown;
   const edem::BodyView view = solver->view(own.id);
   const std::array damage = {view.broken, view.crushed, view.absentElements};
@@ -73,7 +73,7 @@ void Destruction::Impl::showElements() {
 }
 
 void Destruction::Impl::showElements(DestructibleBody& body) {
-  DestructibleBody::Impl& own = body.impl();
+  DestructibleBody::Impl& own = implOf(body);
   const edem::BodyView view = solver->view(own.id);
   const bool asShown = view.asleep || (view.lies() && own.lay) || !failure.empty();
   const edem::RigidMotion motion = asShown ? edem::RigidMotion() : solver->motion(own.id, own.shown.fragment);

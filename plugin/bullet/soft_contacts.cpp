@@ -75,7 +75,7 @@ SoftContacts::StandIn& SoftContacts::next() {
 }
 
 void SoftContacts::meet(DestructibleBody& own, btSoftBody& soft, double dt) {
-  deliver(*own.impl().world->solver, dt);
+  deliver(*implOf(own).world->solver, dt);
   if (!soft.isActive() || !soft.hasContactResponse() || !own.hasContactResponse()) return;
   if ((soft.m_cfg.collisions & (btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::CL_RS)) == 0) {
     if (m_log && !std::exchange(m_toldOfKind, true))
@@ -86,9 +86,9 @@ void SoftContacts::meet(DestructibleBody& own, btSoftBody& soft, double dt) {
   }
   if (soft.m_collisionDisabledObjects.findLinearSearch(&own) != soft.m_collisionDisabledObjects.size())
     return;
-  const edem::Solver& solver = *own.impl().world->solver;
+  const edem::Solver& solver = *implOf(own).world->solver;
   const double margin = double(soft.getCollisionShape()->getMargin());
-  Eigen::AlignedBox3d box = own.impl().shape->box();
+  Eigen::AlignedBox3d box = implOf(own).shape->box();
   box.min().array() -= margin;
   box.max().array() += margin;
   const btVector3 grow = btVector3(1, 1, 1) * btScalar(margin);
@@ -98,7 +98,7 @@ void SoftContacts::meet(DestructibleBody& own, btSoftBody& soft, double dt) {
     const Eigen::Vector3d place = toEigen(node.m_x);
     if (node.m_battach || !box.contains(place)) continue;
     CellSurface nearest;
-    for (const std::uint32_t i : own.impl().shape->elementsNear(node.m_x - grow, node.m_x + grow)) {
+    for (const std::uint32_t i : implOf(own).shape->elementsNear(node.m_x - grow, node.m_x + grow)) {
       const CellSurface surface = surfaceOf(solver, own.id(), i, place);
       if (std::abs(surface.distance) < std::abs(nearest.distance)) nearest = surface;
     }

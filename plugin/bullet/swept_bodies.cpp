@@ -41,7 +41,7 @@ double surfaceSpeed(const btCollisionObject& object, double dt) {
 double fastestNear(std::span<DestructibleBody* const> bodies, double dt) {
   double fastest = 0;
   for (const DestructibleBody* body : bodies) {
-    const DestructibleBody::Impl& own = body->impl();
+    const DestructibleBody::Impl& own = implOf(*body);
     if (body->isActive()) fastest = std::max(fastest, own.speed);
     for (const btCollisionObject* object : own.near) fastest = std::max(fastest, surfaceSpeed(*object, dt));
   }
@@ -90,7 +90,7 @@ std::vector<Eigen::AlignedBox3d> reachedBoxes(std::span<DestructibleBody* const>
   std::vector<Eigen::AlignedBox3d> boxes;
   for (DestructibleBody* body : bodies) {
     if (!body->isActive()) continue;
-    const DestructibleBody::Impl& own = body->impl();
+    const DestructibleBody::Impl& own = implOf(*body);
     Eigen::AlignedBox3d box = own.shape->box();
     box.min().array() -= reach + own.shape->margin();
     box.max().array() += reach + own.shape->margin();
@@ -112,7 +112,7 @@ std::vector<Eigen::AlignedBox3d> reachedBoxes(std::span<DestructibleBody* const>
 void addSwept(btCollisionWorld& world, std::span<DestructibleBody* const> bodies, double dt) {
   const double reach = kRebound * fastestNear(bodies, dt) * dt;
   for (DestructibleBody* body : bodies) {
-    DestructibleBody::Impl& own = body->impl();
+    DestructibleBody::Impl& own = implOf(*body);
     if (!body->isActive() || !(reach > own.shape->margin())) continue;
     btVector3 low, high;
     own.shape->getAabb(body->getWorldTransform(), low, high);

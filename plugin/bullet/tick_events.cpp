@@ -68,9 +68,9 @@ void Destruction::Impl::bookEvents() {
     }
     for (std::uint32_t i = 0; i < split.size(); ++i) {
       const bool root = view.fragment[i] == i;
-      if (root && !body->impl().wasRoot[i])
+      if (root && !implOf(*body).wasRoot[i])
         record(out.fragmentsSplit, {body->id(), i, split[i].elements, split[i].mass});
-      body->impl().wasRoot[i] = root;
+      implOf(*body).wasRoot[i] = root;
     }
   }
 }

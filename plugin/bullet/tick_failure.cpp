@@ -79,7 +79,7 @@ void Destruction::Impl::judgeBalance() {
 // The first failure counts.
 void Destruction::Impl::fail(const DestructibleBody& body, const std::string& what) {
   if (!failure.empty()) return;
-  const DestructibleBody::Impl& own = body.impl();
+  const DestructibleBody::Impl& own = implOf(body);
   failure = own.name + ": " + what + (own.advice.empty() ? "" : "; " + own.advice) + whenText();
 }
 

@@ -138,11 +138,11 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   impl->shape->calculateLocalInertia(btScalar(mass), inertia);
   btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
   auto* body = new DestructibleBody(info, std::move(impl));
-  body->impl().whole.mass = mass;
-  body->impl().coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
+  implOf(*body).whole.mass = mass;
+  implOf(*body).coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
   if (carried) setAnchorBody(*body, bodyDef.anchorBody, carriedBy);
   if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
-  body->impl().shape->setObject(*body);
+  implOf(*body).shape->setObject(*body);
   if (!body->isWhole()) {
     bullet::beElements(*body);
     showElements(*body);
@@ -155,7 +155,7 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
 
 void Destruction::Impl::enter(DestructibleBody& body, int group, int mask) {
   world.addRigidBody(&body, group, mask);
-  world.addConstraint(body.impl().coupler.get());
+  world.addConstraint(implOf(body).coupler.get());
   bodies.push_back(&body);
 }
 
@@ -187,9 +187,9 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   forgetJointsOf(body);
   softContacts.forget(body);
   wholes -= body.isWhole();
-  world.removeConstraint(body.impl().coupler.get());
+  world.removeConstraint(implOf(body).coupler.get());
   const edem::Books before = solver->books();
-  solver->removeBody(body.impl().id);
+  solver->removeBody(implOf(body).id);
   const edem::Books& after = solver->books();
   debris::Motion gone;
   gone.mass = after.leftMass - before.leftMass;
@@ -198,7 +198,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   gone.kinetic = after.leftKinetic - before.leftKinetic + after.leftElastic - before.leftElastic;
   ledgerBook.addRemoved(gone);
   energyBalance.beginAnew();
-  body.impl().world = nullptr;
+  implOf(body).world = nullptr;
 }
 
 DestructibleBody* Destruction::Impl::bodyOf(std::uint32_t id) const {
@@ -224,8 +224,8 @@ void Destruction::Impl::gatherProxies(double dt) {
   touched.clear();
   proxies.clear();
   for (DestructibleBody* body : bodies) {
-    bullet::AnchorBody& base = body->impl().anchorBody;
-    std::vector<btCollisionObject*>& near = body->impl().near;
+    bullet::AnchorBody& base = implOf(*body).anchorBody;
+    std::vector<btCollisionObject*>& near = implOf(*body).near;
     const bool rides = base.body && base.ridden && body->isActive();
     if (rides && std::find(near.begin(), near.end(), base.body) == near.end()) near.push_back(base.body);
     for (btCollisionObject* object : near) {
@@ -342,14 +342,14 @@ void Destruction::Impl::advance(double dt) {
     if (proxies[p].isPressed() && !t.rigid->isActive()) t.rigid->activate();
   }
   giveLinks(dt, start);
-  for (DestructibleBody* body : bodies) body->impl().shape->setHidden(true);
+  for (DestructibleBody* body : bodies) implOf(*body).shape->setHidden(true);
 }
 
 // What asks from now on, even before the tick is over, finds the elements where the substeps left them.
 void Destruction::Impl::followElements() {
   if (!failure.empty()) return;  // places may not be numbers
   for (DestructibleBody* body : bodies)
-    if (!solver->view(body->id()).lies() || !body->impl().lay) body->impl().shape->follow();
+    if (!solver->view(body->id()).lies() || !implOf(*body).lay) implOf(*body).shape->follow();
 }
 
 void Destruction::Impl::finish(double dt) {
@@ -357,8 +357,8 @@ void Destruction::Impl::finish(double dt) {
   if (!advanced) advance(dt);
   pushOut.restore(*world.getDispatcher());
   for (DestructibleBody* body : bodies) {
-    body->impl().shape->setHidden(false);
-    body->impl().near.clear();
+    implOf(*body).shape->setHidden(false);
+    implOf(*body).near.clear();
   }
   if (advanced) {
     forgetTaken();
@@ -385,7 +385,7 @@ void Destruction::Impl::finish(double dt) {
   failSpoiled();
   if (failure.empty()) placeWholes();
   updateSleep(dt);
-  for (DestructibleBody* body : bodies) body->impl().inSolver = false;
+  for (DestructibleBody* body : bodies) implOf(*body).inSolver = false;
   softContacts.close();
   advanced = lookedForBlows = false;
   ++ticks;
@@ -411,7 +411,7 @@ void Destruction::Impl::closeLedger(double dt) {
 void Destruction::Impl::followSleep() {
   BT_PROFILE("Rubble follow sleep");
   for (DestructibleBody* body : bodies)
-    if (body->impl().state == DestructibleBody::Impl::State::Elements)
+    if (implOf(*body).state == DestructibleBody::Impl::State::Elements)
       solver->setAsleep(body->id(), !body->isActive());
 }
 
@@ -422,8 +422,8 @@ void Destruction::Impl::updateSleep(double dt) {
     if (body->isWhole()) continue;
     ease(*body, dt);
     const std::uint32_t id = body->id();
-    const double speed = body->impl().speed = solver->maxSpeed(id);
-    const bool quiet = def.sleep && speed < kQuietSpeed && !(body->impl().easeTime > 0);
+    const double speed = implOf(*body).speed = solver->maxSpeed(id);
+    const bool quiet = def.sleep && speed < kQuietSpeed && !(implOf(*body).easeTime > 0);
     if (!quiet) {
       body->forceActivationState(DISABLE_DEACTIVATION);
       body->setDeactivationTime(0);
@@ -433,8 +433,8 @@ void Destruction::Impl::updateSleep(double dt) {
     const bool lies = solver->view(id).lies();
     // It has waited for each of its fragments: Bullet need not wait once more.
     if (quiet && lies) body->setDeactivationTime(std::max(body->getDeactivationTime(), gDeactivationTime));
-    if (!lies || !body->impl().lay) body->impl().shape->refit(speed * dt);
-    body->impl().lay = lies;
+    if (!lies || !implOf(*body).lay) implOf(*body).shape->refit(speed * dt);
+    implOf(*body).lay = lies;
   }
   waitForAnchored();
 }

@@ -31,6 +31,7 @@ struct BodyConstants {
 
   // Elements.
   std::vector<double> mass;  ///< density x volume of the cell [kg]
+  double lightest = 0;       ///< of them
   std::vector<Real> inverseMass;
   std::vector<double> inertia;  ///< scalar moment [kg m^2]
   std::vector<Real> inverseInertia;

@@ -69,6 +69,7 @@ Eigen::Vector3d makeElements(BodyConstants<Real>& constants, const BodyDef& def)
     total += constants.mass[i];
   }
   centre /= total;
+  constants.lightest = *std::min_element(constants.mass.begin(), constants.mass.end());
   for (std::size_t i = 0; i < n; ++i) constants.restCentred[i] = asset.positions[i] - centre;
   constants.crushEnergy.assign(n, std::numeric_limits<Real>::infinity());
   for (std::size_t i = 0; i < def.crushEnergy.size(); ++i)

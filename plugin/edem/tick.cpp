@@ -36,8 +36,7 @@ double smallestRadius(const World<Real>& w) {
 template <class Real>
 double lightBody(const World<Real>& w) {
   double lightest = std::numeric_limits<double>::infinity();
-  for (const auto& body : w.bodies)
-    for (const double mass : body->constants->mass) lightest = std::min(lightest, mass);
+  for (const auto& body : w.bodies) lightest = std::min(lightest, body->constants->lightest);
   return std::isfinite(lightest) ? kLight * lightest : 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "bullet/body_impl.h"
 #include "bullet/bullet_world.h"
 #include "bullet/convert.h"
 #include "bullet/world_tick.h"
@@ -56,7 +57,7 @@ struct ElementVolley {
     def.precision = precision;
     return def;
   }
-  Destruction::Impl& impl() { return world.destruction->impl(); }
+  Destruction::Impl& impl() { return implOf(*world.destruction); }
   debris::Motion element() {
     const auto& s = *impl().solver;
     return debris::motionOf(s.view(id).mass[0], s.view(id).inertia[0], s.position(id, 0), s.velocity(id, 0),
@@ -125,7 +126,7 @@ TEST(DebrisPush, PiecesOfOneTickMakeNoEnergyOnALightBody) {
     btBoxShape boxShape({btScalar(0.02), btScalar(0.02), btScalar(0.02)});
     btRigidBody* box = w.add(btScalar(0.09), boxShape, {0, 5, 0});
     box->setLinearFactor({1, 1, 0});  // held in a plane
-    Destruction::Impl& impl = w.destruction->impl();
+    Destruction::Impl& impl = implOf(*w.destruction);
     impl.debrisSystem->add(volley(count, {0, 5, 0}));
     const debris::Motion start = impl.debrisSystem->motion();
     impl.debrisSystem->takeExchange();
@@ -153,7 +154,7 @@ constexpr double kStone = 0.012;  // radius [m]: does not fall through between t
 struct RestingDebris : BulletWorld {
   using BulletWorld::BulletWorld;
 
-  debris::DebrisSystem& system() { return *destruction->impl().debrisSystem; }
+  debris::DebrisSystem& system() { return *implOf(*destruction).debrisSystem; }
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds * 240); ++i)
       world.stepSimulation(btScalar(kTick), 1, btScalar(kTick));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet/body_impl.h"
 #include "bullet/bullet_world.h"
 #include "bullet/world_tick.h"
 
@@ -33,7 +34,7 @@ std::shared_ptr<const Asset> throughAFile(const Asset& asset) {
 }
 
 edem::PrestressResult resultOf(BulletWorld& w, const DestructibleBody& body) {
-  return w.destruction->impl().solver->prestressed(body.id());
+  return implOf(*w.destruction).solver->prestressed(body.id());
 }
 
 void expectKeptAndEqual(const DestructibleBodyDef& def, Precision precision) {

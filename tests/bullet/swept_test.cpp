@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bullet/body_impl.h"
 #include "bullet/bullet_world.h"
 #include "bullet/world_tick.h"
 #include "support/grid_asset.h"
@@ -58,7 +59,7 @@ struct Range {
   }
   void run(int rate) {
     constexpr double kFallTime = 0.1;  // [s]
-    const edem::Solver& solver = *w.destruction->impl().solver;
+    const edem::Solver& solver = *implOf(*w.destruction).solver;
     for (int tick = 0; tick < int(std::lround(kFallTime * rate)); ++tick) {
       w.world.stepSimulation(btScalar(1) / btScalar(rate), 1, btScalar(1) / btScalar(rate));
       for (const DestructibleBody* pane : w.destruction->bodies()) {
@@ -216,7 +217,7 @@ TEST(Swept, ElementFirstSeenDeepIsNoFasterThanItCame) {
       def.transform.setOrigin({btScalar(-kRadius), btScalar(-depth * kRadius), btScalar(-kRadius)});
       def.velocity = velocity;
       const std::uint32_t id = w.destruction->addBody(def)->id();
-      const edem::Solver& solver = *w.destruction->impl().solver;
+      const edem::Solver& solver = *implOf(*w.destruction).solver;
       ASSERT_NEAR(solver.position(id, 0).y(), (1 - depth) * kRadius, 1e-6);
       ASSERT_NEAR(solver.position(id, 0).x(), 0, 1e-6);
       for (int tick = 0; tick < 20; ++tick) {

@@ -52,11 +52,10 @@ class DestructibleBody : public btRigidBody {
   bool isWhole() const;
 
   struct Impl;
-  Impl& impl() { return *m_impl; }
-  const Impl& impl() const { return *m_impl; }
 
  private:
   friend class Destruction;
+  friend struct ImplAccess;
   DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> m_impl;
 };

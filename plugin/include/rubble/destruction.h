@@ -148,9 +148,9 @@ class Destruction : public btActionInterface {
   void debugDraw(btIDebugDraw* drawer) override;
 
   struct Impl;
-  Impl& impl() { return *m_impl; }
 
  private:
+  friend struct ImplAccess;
   std::unique_ptr<Impl> m_impl;
 };
 
