@@ -24,6 +24,7 @@ constexpr std::uint32_t kMostShares = 64;
 void takeSettings(DestructibleBody& from, const btVector3& gravity, DestructibleBody& to) {
   implOf(to).settings = implOf(from).settings;
   implOf(to).settings.gravity = bullet::ownGravity(from, gravity).value_or(bullet::noGravity());
+  to.setCollisionFlags(from.getCollisionFlags());
   to.setFriction(from.getFriction());
   to.setRollingFriction(from.getRollingFriction());
   to.setSpinningFriction(from.getSpinningFriction());

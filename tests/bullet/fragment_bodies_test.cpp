@@ -153,12 +153,14 @@ TEST(FragmentBodies, AreRemovedAsOthersAre) {
   }
 }
 
-TEST(FragmentBodies, KeepTheFilterTheGravityAndTheIgnoreList) {
+TEST(FragmentBodies, KeepFilterFlagsGravityAndIgnoreList) {
   StruckBar w(8);
   w.bar->setGravity({0, 2, 0});
   btSphereShape small(btScalar(0.05));
   btRigidBody* other = w.add(1, small, {20, 5, 0});
   w.bar->setIgnoreCollisionCheck(other, true);
+  constexpr int kTold = btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK;
+  w.bar->setCollisionFlags(w.bar->getCollisionFlags() | kTold);
   w.step(60);
   ASSERT_GT(w.splits.size(), 0u);
   DestructibleBody* part = w.destruction->body(w.splits.front().newBody);
@@ -166,6 +168,7 @@ TEST(FragmentBodies, KeepTheFilterTheGravityAndTheIgnoreList) {
   w.step(24);
   EXPECT_NEAR(double(part->getLinearVelocity().y() - before.y()), 0.2, 0.01);
   EXPECT_FALSE(part->checkCollideWith(other));
+  EXPECT_TRUE(part->getCollisionFlags() & kTold);
   EXPECT_EQ(part->getBroadphaseProxy()->m_collisionFilterMask,
             w.bar->getBroadphaseProxy()->m_collisionFilterMask);
   w.clear();
