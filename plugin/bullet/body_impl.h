@@ -33,6 +33,8 @@ struct DestructibleBody::Impl {
   double restTime = 0;                        ///< since it was last too restless to be whole [s]
   bool struck = false;                        ///< while whole: by the application, or overloaded
   std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
+  bullet::Pressure pressure;                  ///< of its contacts while whole, of this tick
+  bool isGauged = false;                      ///< in this tick
   std::vector<bullet::ContactPatch> patches;  ///< on it while whole, of this tick
   double thawLoad = 0;                        ///< share of strength for which it thawed; 0: not by a load
   double survivedLoad = 0;                    ///< the largest of these from which it came back whole

@@ -13,6 +13,10 @@ namespace {
 // The noise of Bullet's solver and the blows of a landing, which have a rule of their own, last for a few
 // ticks; a load rests [s].
 constexpr double kSmoothing = 0.1;
+// A load that presses alike, within this share, is the same; the smoothing has seen all of it after this time
+// [s]. Below the share of the strength it is far from a thaw, at half: it has to change to get there. What
+// turns faster than the spin has inertial forces of its own [rad/s].
+constexpr double kAlike = 0.05, kSettled = 0.5, kFar = 0.25, kTurns = 0.1;
 // Slowest bending of a prism of length L and thickness t on supports at its ends: pi^2 / sqrt(12) t c / L^2.
 constexpr double kBendingFrequency = 2.85;
 
@@ -62,7 +66,26 @@ LoadGauge::LoadGauge(Sections sections, const Material& material, const Model& m
   m_slowest = kBendingFrequency * m_sections.thickness * sound / (m_sections.length * m_sections.length);
 }
 
+void Pressure::add(double impulse, const Eigen::Vector3d& at) {
+  sum += impulse;
+  first += impulse * at;
+  second += impulse * at.cwiseAbs2();
+}
+
+bool LoadGauge::isSettled(const Pressure& contacts, double spin, double dt) {
+  const Pressure now{contacts.sum / dt, contacts.first / dt, contacts.second / dt, contacts.gravity};
+  const double size = kAlike * m_seen.sum, reach = 0.5 * m_sections.length;
+  const bool isAlike = now.gravity == m_seen.gravity && std::abs(now.sum - m_seen.sum) <= size &&
+                       (now.first - m_seen.first).cwiseAbs().maxCoeff() <= size * reach &&
+                       (now.second - m_seen.second).cwiseAbs().maxCoeff() <= size * reach * reach;
+  if (!isAlike) m_seen = now;
+  m_settling = isAlike && spin < kTurns ? m_settling + dt : 0;
+  return m_settling > kSettled && m_share < kFar;
+}
+
 void LoadGauge::reset() {
+  m_seen = {};
+  m_settling = 0;
   m_loads.fill({});
   m_bearing = m_share = 0;
 }

@@ -45,31 +45,60 @@ bool isSolved(const btPersistentManifold& manifold) {
   return nearest <= manifold.getContactProcessingThreshold();
 }
 
-}  // namespace
-
-void Destruction::Impl::gatherPatches(double dt) {
-  const btDispatcher& dispatcher = *world.getDispatcher();
+// Visits (body, manifold, whether the body is the second of it) for whole bodies that are awake.
+template <class Visit>
+void visitWhole(btDispatcher& dispatcher, Visit&& visit) {
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
-    const btPersistentManifold& manifold =
-        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(m);
-    if (!isSolved(manifold)) continue;
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
     for (const bool second : {false, true}) {
       const btCollisionObject* object = second ? manifold.getBody1() : manifold.getBody0();
-      DestructibleBody* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
-      if (!body || !body->isWhole() || !body->isActive()) continue;
-      if (auto patch = bullet::contactPatch(manifold, second, loadFrame(*body), dt))
-        implOf(*body).patches.push_back(std::move(*patch));
+      auto* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
+      if (body && body->isWhole() && body->isActive() && isSolved(manifold)) visit(*body, manifold, second);
     }
   }
 }
 
+}  // namespace
+
+void Destruction::Impl::sumPressures() {
+  visitWhole(*world.getDispatcher(), [](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
+    const btTransform& place = body.getWorldTransform();
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      const btVector3& at = second ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
+      implOf(body).pressure.add(double(point.m_appliedImpulse), toEigen(place.invXform(at)));
+    }
+  });
+}
+
+void Destruction::Impl::gatherPatches(double dt) {
+  visitWhole(*world.getDispatcher(),
+             [dt](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
+               if (!implOf(body).isGauged) return;
+               if (auto patch = bullet::contactPatch(manifold, second, loadFrame(body), dt))
+                 implOf(body).patches.push_back(std::move(*patch));
+             });
+}
+
+// Most that is awake lies as it lay, and is looked at no further.
 void Destruction::Impl::noteLoads(double dt) {
   if (wholes == 0 || !(dt > 0)) return;
   BT_PROFILE("Rubble note loads");
+  sumPressures();
+  bool any = false;
+  for (DestructibleBody* body : bodies) {
+    if (!body->isWhole() || !body->isActive()) continue;
+    DestructibleBody::Impl& own = implOf(*body);
+    bullet::Pressure pressure = std::exchange(own.pressure, {});
+    if (own.held) pressure.gravity = toEigen(world.getGravity());
+    own.isGauged = !own.gauge->isSettled(pressure, double(body->getAngularVelocity().length()), dt);
+    any = any || own.isGauged;
+  }
+  if (!any) return;
   gatherPatches(dt);
   for (DestructibleBody* body : bodies) {
     DestructibleBody::Impl& own = implOf(*body);
-    if (!body->isWhole() || !body->isActive()) continue;
+    if (!std::exchange(own.isGauged, false) || !body->isWhole()) continue;
     if (own.patches.empty() && !own.held && own.gauge->share() < kForgotten) {
       own.gauge->reset();
       continue;

@@ -285,7 +285,8 @@ void Destruction::Impl::spareFiltered() {
 }
 
 void Destruction::Impl::advance(double dt) {
-  if (advanced || !failure.empty()) return;
+  // Each body's coupler comes, and when nothing is awake all would look at all bodies.
+  if (std::exchange(begun, true) || !failure.empty()) return;
   BT_PROFILE("Rubble advance");
   softContacts.deliver(*solver, dt);
   takeHostMoves(dt);
@@ -354,7 +355,7 @@ void Destruction::Impl::followElements() {
 
 void Destruction::Impl::finish(double dt) {
   BT_PROFILE("Rubble finish");
-  if (!advanced) advance(dt);
+  advance(dt);
   pushOut.restore(*world.getDispatcher());
   for (DestructibleBody* body : bodies) {
     implOf(*body).shape->setHidden(false);
@@ -387,7 +388,7 @@ void Destruction::Impl::finish(double dt) {
   updateSleep(dt);
   for (DestructibleBody* body : bodies) implOf(*body).inSolver = false;
   softContacts.close();
-  advanced = lookedForBlows = false;
+  begun = advanced = lookedForBlows = false;
   ++ticks;
   seconds += dt;
 }

@@ -97,6 +97,7 @@ struct Destruction::Impl {
   std::vector<bullet::LeftPlace> leftPlaces;          ///< of what was touched in the last tick
   std::vector<bullet::HeldJoint> joints, lastJoints;  ///< the application's, to bodies of elements
   bullet::SoftContacts softContacts;
+  bool begun = false;     ///< this tick: some coupler or the action has come
   bool advanced = false;  ///< in this tick
   bullet::LedgerBook ledgerBook;
   bullet::EnergyAlarm energyAlarm;
@@ -190,6 +191,7 @@ struct Destruction::Impl {
   void thaw(DestructibleBody& body, double dt);
   /// Looks at the loads that rest on whole bodies; those that may break them thaw in the next tick.
   void noteLoads(double dt);
+  void sumPressures();
   void gatherPatches(double dt);
   void finishThaws();
   /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
