@@ -46,5 +46,6 @@ BenchTopic cookStagesTopic();
 BenchTopic debrisTopic();
 BenchTopic dustTopic();
 BenchTopic pressureTopic();
+BenchTopic wholeBodiesTopic();
 
 }  // namespace rubble::test

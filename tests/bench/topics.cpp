@@ -6,7 +6,7 @@ namespace rubble::test {
 const std::vector<BenchTopic>& benchTopics() {
   static const std::vector<BenchTopic> topics = {assetTopic(),     cookTopic(),       cookMemoryTopic(),
                                                  cookSitesTopic(), cookStagesTopic(), debrisTopic(),
-                                                 dustTopic(),      pressureTopic()};
+                                                 dustTopic(),      pressureTopic(),   wholeBodiesTopic()};
   return topics;
 }
 
