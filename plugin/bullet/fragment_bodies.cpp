@@ -76,7 +76,6 @@ void Destruction::Impl::splitBody(DestructibleBody& body, std::uint32_t root) {
   if (!id) return;  // it touches others
   const DestructibleBody::Impl& from = implOf(body);
   auto impl = std::make_unique<DestructibleBody::Impl>();
-  impl->world = this;
   impl->id = *id;
   impl->source = from.source;
   impl->asset = from.asset;
@@ -85,19 +84,10 @@ void Destruction::Impl::splitBody(DestructibleBody& body, std::uint32_t root) {
   impl->name = "body " + std::to_string(*id) + " (of " + from.name + ")";
   impl->spawner = std::make_unique<debris::Spawner>(from.material, from.model, def.seed);
   impl->bondConstants = from.bondConstants;
-  impl->shape = std::make_unique<bullet::ElementShape>(*solver, *id);
-  impl->speed = solver->maxSpeed(*id);
   impl->wasRoot.assign(from.wasRoot.size(), 0);
   impl->wasRoot[root] = 1;
   const bullet::FragmentSize size = fragmentSizes[root];
-  impl->whole.mass = size.mass;
-  btVector3 inertia;
-  impl->shape->calculateLocalInertia(btScalar(size.mass), inertia);
-  const btRigidBody::btRigidBodyConstructionInfo info(btScalar(size.mass), nullptr, impl->shape.get(),
-                                                      inertia);
-  auto* part = new DestructibleBody(info, std::move(impl));
-  implOf(*part).coupler = std::make_unique<bullet::CouplerConstraint>(*part, *this);
-  implOf(*part).shape->setObject(*part);
+  DestructibleBody* part = make(std::move(impl), size.mass);
   takeSettings(body, world.getGravity(), *part);
   bullet::beElements(*part);
   showElements(*part);

@@ -22,7 +22,7 @@ struct RestingLoad {
 };
 
 /// What of a body's contacts tells whether its load has changed: moments of their pressing impulses over
-/// place, in any one frame.
+/// place, in a frame of the body's.
 struct Pressure {
   double sum = 0;                                     ///< [N s]
   Eigen::Vector3d first = Eigen::Vector3d::Zero();    ///< [N s m]

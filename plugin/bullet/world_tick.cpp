@@ -123,26 +123,17 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   } else if (bodyDef.anchored) {
     logPrestress(impl->id, impl->name, bodyDef);  // the advice would be its reason
   }
-  impl->world = this;
   impl->source = impl->id;
   impl->asset = bodyDef.asset;
   impl->material = bodyDef.material;
   impl->model = bodyDef.model;
-  impl->shape = std::make_unique<bullet::ElementShape>(*solver, impl->id);
-  impl->speed = solver->maxSpeed(impl->id);
   impl->wasRoot.assign(bodyDef.asset->elementCount(), 0);
   const auto fragment = solver->view(impl->id).fragment;
   for (std::size_t i = 0; i < fragment.size(); ++i) impl->wasRoot[i] = fragment[i] == i;
 
-  btVector3 inertia;
-  impl->shape->calculateLocalInertia(btScalar(mass), inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
-  auto* body = new DestructibleBody(info, std::move(impl));
-  implOf(*body).whole.mass = mass;
-  implOf(*body).coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
+  DestructibleBody* body = make(std::move(impl), mass);
   if (carried) setAnchorBody(*body, bodyDef.anchorBody, carriedBy);
   if (bodyDef.regime == Regime::RigidUntilStruck) beWhole(*body, bodyDef);
-  implOf(*body).shape->setObject(*body);
   if (!body->isWhole()) {
     bullet::beElements(*body);
     showElements(*body);
@@ -150,6 +141,20 @@ DestructibleBody* Destruction::Impl::addBody(const DestructibleBodyDef& bodyDef)
   if (bodyDef.model.contactBesideSpring) energyBalance.beginAnew();  // they may press from the start
   enter(*body, bodyDef.collisionGroup, bodyDef.collisionMask);
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
+  return body;
+}
+
+DestructibleBody* Destruction::Impl::make(std::unique_ptr<DestructibleBody::Impl> impl, double mass) {
+  impl->world = this;
+  impl->shape = std::make_unique<bullet::ElementShape>(*solver, impl->id);
+  impl->speed = solver->maxSpeed(impl->id);
+  impl->whole.mass = mass;
+  btVector3 inertia;
+  impl->shape->calculateLocalInertia(btScalar(mass), inertia);
+  const btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, impl->shape.get(), inertia);
+  auto* body = new DestructibleBody(info, std::move(impl));
+  implOf(*body).coupler = std::make_unique<bullet::CouplerConstraint>(*body, *this);
+  implOf(*body).shape->setObject(*body);
   return body;
 }
 

@@ -150,7 +150,8 @@ struct Destruction::Impl {
   void splitBodies();
   std::vector<std::uint32_t> fragmentsToSplit(const DestructibleBody& body);
   void splitBody(DestructibleBody& body, std::uint32_t root);
-  /// Puts a new body into the world.
+  /// Of what a new body has of its own; its id is the solver's. And puts it into the world.
+  DestructibleBody* make(std::unique_ptr<DestructibleBody::Impl> impl, double mass);
   void enter(DestructibleBody& body, int group, int mask);
   void failSolver();
   /// Ends the simulation where a whole body's place or motion in Bullet is not finite.

@@ -14,7 +14,7 @@ namespace rubble::edem {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Copied: filled with zeros one by one, by the processor's string instructions, it takes thrice as long.
+// Copied: GCC zeroes so much by a string instruction, which was more than half of findPoints' time.
 const FaceHit kNoHit;
 // Stiffness of a corner over k_n: four of them lie on a face as a box does.
 constexpr double kCornerWeight = 0.25;

@@ -64,14 +64,13 @@ class SolverOf final : public Solver {
     const auto place = std::uint32_t(placeOf(id)), newPlace = std::uint32_t(m_world.bodies.size());
     Body<Real>& body = *m_world.bodies[place];
     if (!maySplit(body, root)) return std::nullopt;
-    std::vector<std::uint8_t> leaves(body.elementCount());
-    for (std::size_t i = 0; i < leaves.size(); ++i) leaves[i] = body.state.fragment[i] == root;
-    if (m_world.lists.touchOthers(place, leaves)) return std::nullopt;
-    m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, root, m_nextId)));
+    const std::vector<std::uint8_t> members = membersOf(body, root);
+    if (m_world.lists.touchOthers(place, members)) return std::nullopt;
+    m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, members, m_nextId)));
     m_prestressed.emplace_back();
     m_places.push_back(newPlace);
-    m_world.lists.split(place, leaves, newPlace, m_nextId);
-    m_world.rigid.split(id, leaves, m_nextId);
+    m_world.lists.split(place, members, newPlace, m_nextId);
+    m_world.rigid.split(id, members, m_nextId);
     m_world.listsStale = true;
     return m_nextId++;
   }

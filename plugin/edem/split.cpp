@@ -1,6 +1,6 @@
 #include "edem/split.h"
 
-#include <cassert>
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -52,13 +52,17 @@ bool maySplit(const Body<Real>& body, std::uint32_t root) {
 }
 
 template <class Real>
-Body<Real> splitOff(Body<Real>& body, std::uint32_t root, std::uint32_t id) {
-  assert(maySplit(body, root));
-  std::vector<std::uint8_t> leaves(body.elementCount());
-  for (std::uint32_t i = 0; i < body.elementCount(); ++i) leaves[i] = body.state.fragment[i] == root;
+std::vector<std::uint8_t> membersOf(const Body<Real>& body, std::uint32_t root) {
+  std::vector<std::uint8_t> members(body.elementCount());
+  for (std::size_t i = 0; i < members.size(); ++i) members[i] = body.state.fragment[i] == root;
+  return members;
+}
+
+template <class Real>
+Body<Real> splitOff(Body<Real>& body, const std::vector<std::uint8_t>& members, std::uint32_t id) {
   Body<Real> part = body;
   part.id = id;
-  keep(part, leaves);
+  keep(part, members);
   // What has been crushed and broken was the body's.
   part.state.absentElements += std::exchange(part.state.crushedCount, 0);
   part.state.absentSprings += std::exchange(part.state.brokenCount, 0);
@@ -73,15 +77,18 @@ Body<Real> splitOff(Body<Real>& body, std::uint32_t root, std::uint32_t id) {
   part.state.energyAsleep = part.state.massAsleep = 0;
   ++part.state.sleepChanges;
   relist(part);
-  for (std::uint8_t& leaf : leaves) leaf = !leaf;
-  keep(body, leaves);
+  std::vector<std::uint8_t> others(members.size());
+  std::ranges::transform(members, others.begin(), [](std::uint8_t member) { return !member; });
+  keep(body, others);
   relist(body);
   return part;
 }
 
 template bool maySplit(const Body<float>&, std::uint32_t);
 template bool maySplit(const Body<double>&, std::uint32_t);
-template Body<float> splitOff(Body<float>&, std::uint32_t, std::uint32_t);
-template Body<double> splitOff(Body<double>&, std::uint32_t, std::uint32_t);
+template std::vector<std::uint8_t> membersOf(const Body<float>&, std::uint32_t);
+template std::vector<std::uint8_t> membersOf(const Body<double>&, std::uint32_t);
+template Body<float> splitOff(Body<float>&, const std::vector<std::uint8_t>&, std::uint32_t);
+template Body<double> splitOff(Body<double>&, const std::vector<std::uint8_t>&, std::uint32_t);
 
 }  // namespace rubble::edem

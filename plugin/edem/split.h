@@ -2,6 +2,9 @@
 // from: element i and spring s are the same in both, in one of them each.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "edem/body.h"
 
 namespace rubble::edem {
@@ -11,9 +14,13 @@ namespace rubble::edem {
 template <class Real>
 bool maySplit(const Body<Real>& body, std::uint32_t root);
 
-/// Takes such a fragment out of the body. Places, motion, cracks and what its springs hold stay bit by bit;
-/// nothing is booked, for the sums over both are what they were.
+/// 1 for the elements of that fragment (n).
 template <class Real>
-Body<Real> splitOff(Body<Real>& body, std::uint32_t root, std::uint32_t id);
+std::vector<std::uint8_t> membersOf(const Body<Real>& body, std::uint32_t root);
+
+/// Takes the members of such a fragment out of the body. Places, motion, cracks and what its springs hold
+/// stay bit by bit; nothing is booked, for the sums over both are what they were.
+template <class Real>
+Body<Real> splitOff(Body<Real>& body, const std::vector<std::uint8_t>& members, std::uint32_t id);
 
 }  // namespace rubble::edem
