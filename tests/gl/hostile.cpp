@@ -480,4 +480,11 @@ std::map<std::string, std::vector<double>> stateOfContext() {
   return state;
 }
 
+OwnContext::~OwnContext() {
+  if (!m_context) return;
+  GLboolean active = GL_FALSE;
+  glGetBooleanv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+  if (active == GL_TRUE) glEndTransformFeedback();
+}
+
 }  // namespace rubble::test

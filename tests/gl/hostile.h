@@ -38,6 +38,10 @@ class OwnContext {
     m_context = tryContext(reason);
     EXPECT_TRUE(m_context) << reason;
   }
+  /// Ends a feedback in progress: drivers are known to let one outlive its context, and its buffer.
+  ~OwnContext();
+  OwnContext(const OwnContext&) = delete;
+  OwnContext& operator=(const OwnContext&) = delete;
 
  private:
   std::unique_ptr<demo::EglContext> m_context;
