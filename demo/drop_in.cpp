@@ -1,5 +1,6 @@
-// Bullet's hello world, a ball falling on the ground, with something breakable in its way. The lines marked
-// "ours" are all that Rubble adds. Links rubble::rubble alone: no OpenGL, no CGAL.
+// Bullet's hello world, a ball falling on the ground, with something breakable in its way, which is a rigid
+// body as any other until the ball strikes it. The lines marked "ours" are all that Rubble adds. Links
+// rubble::rubble alone: no OpenGL, no CGAL.
 //
 //     rubble_drop_in ASSET
 #include <btBulletDynamicsCommon.h>

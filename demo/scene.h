@@ -51,7 +51,7 @@ struct SceneObject : Placement {
   /// What the anchors hold to in place of the world: `impactors.0`, `statics.1`; empty: the world.
   std::string anchorBody = {};
   double massDamping = 0;  ///< of the deformation [1/s]
-  Regime regime = Regime::Elements;
+  Regime regime = Regime::RigidUntilStruck;
   Material material;
   Model model;
 };

@@ -14,6 +14,7 @@ double restDepth(int box) {
 
 DestructibleBodyDef elements(std::size_t count) {
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox({kWidth, kLength, kWidth}, count, Eigen::Vector3d::UnitY());
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

@@ -18,6 +18,7 @@ const DestructibleBody* add(CaseWorld& world, Precision precision, double subste
                             const Eigen::Vector3d& velocity) {
   addGround(world);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox(kSize, kElements);
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

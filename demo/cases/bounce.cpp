@@ -65,6 +65,7 @@ std::pair<Bounce, CaseOutcome> runElements(const ElementRun& run) {
   CaseWorld world(0);
   world.add(0, wall(), Eigen::Vector3d::Zero()).setRestitution(1);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox(Eigen::Vector3d::Constant(kEdge), 1);
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

@@ -22,6 +22,7 @@ CaseOutcome runElements(Precision precision, double substepSafety, std::size_t e
   const double simulated = maySleep ? 4.0 : 0.25;  // [s]
   CaseWorld world(kGravity);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox({kLength, kHeight, kHeight}, elements, -Eigen::Vector3d::UnitX());
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

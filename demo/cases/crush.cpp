@@ -48,6 +48,7 @@ CaseOutcome runMachine(const MachineTest& test, std::size_t elements) {
 CaseOutcome runPlates(double substepSafety, std::size_t elements, double rate) {
   CaseWorld world(0);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox(Eigen::Vector3d::Constant(kEdge), elements);
   world.destruct(Precision::Float, substepSafety, false, true).addBody(def);
   const auto shape = [] { return std::make_unique<btBoxShape>(toBullet({kEdge, kThick / 2, kEdge})); };

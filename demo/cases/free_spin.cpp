@@ -66,6 +66,7 @@ CaseOutcome runElements(Precision precision, double substepSafety, bool momentum
   constexpr double kTick = 1.0 / 240;  // [s]
   CaseWorld world(0);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox(kSize, kElements);
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

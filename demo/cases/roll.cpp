@@ -57,6 +57,7 @@ CaseOutcome runElements(const SlabRun& run) {
   CaseWorld world(0);
   tilt(world);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox(kSize, kElements, -Eigen::Vector3d::UnitY());
   def.material.density = kDensity;
   def.material.youngsModulus = run.modulus;

@@ -54,6 +54,7 @@ btTransform at(double x) {
 CaseOutcome runElements(Precision precision, double substepSafety, double rate) {
   CaseWorld world(0);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox({kLength, kWidth, kWidth}, kElements, -Eigen::Vector3d::UnitX());
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

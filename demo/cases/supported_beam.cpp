@@ -55,6 +55,7 @@ CaseOutcome runSag(Precision precision, double substepSafety, std::size_t elemen
   addBar(world, -kSpan / 2).setFriction(1);
   addBar(world, kSpan / 2).setFriction(0);  // it may roll
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox({kLength, kHeight, kHeight}, elements);
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;
@@ -76,6 +77,7 @@ CaseOutcome runPeriod(Precision precision, double substepSafety, std::size_t ele
   constexpr double kTick = 1.0 / 480;  // an 84th of the period [s]
   CaseWorld world(0);                  // no pre-stress
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = cookedBox({kLength, kHeight, kHeight}, elements, -Eigen::Vector3d::UnitX());
   def.material.density = kDensity;
   def.material.youngsModulus = kModulus;

@@ -34,7 +34,8 @@ void Destruction::removeBody(DestructibleBody* body) {
 }
 
 void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody) {
-  if (implOf(*body).whole.shape) throw Error("anchorBody: of a body that Bullet may move as a whole");
+  if (implOf(*body).whole.shape)
+    throw Error("anchorBody: of a body that Bullet may move as a whole; add it with Regime::Elements");
   edem::Twist motion;
   if (anchorBody) {
     bullet::requireAnchorBody(m_impl->world, *anchorBody, body->elementMass());

@@ -68,7 +68,7 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
   const char* reason = own.whole.shape ? nullptr : "few convex parts do not fit its solid";
   if (!reason && !solver->park(own.id).has_value()) reason = "it is not one piece";
   if (reason) {
-    if (def.log) def.log(LogLevel::Info, own.name + ": cannot be Bullet's until it is struck: " + reason);
+    if (def.log) def.log(LogLevel::Info, own.name + ": is elements from the start: " + reason);
     return;
   }
   own.gauge = std::make_unique<bullet::LoadGauge>(

@@ -44,6 +44,7 @@ struct BulletWorld : stability::BulletWorld {
   ~BulletWorld() { clear(); }
   DestructibleBody* addWall(const Material& material) {
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = smallWall();
     def.material = material;
     return destruction->addBody(def);

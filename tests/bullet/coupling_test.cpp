@@ -79,6 +79,7 @@ TEST(Coupling, BallGetsWhatTheElementsGive) {
   BulletWorld w(definition);
   w.world.setGravity({0, 0, 0});
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = smallWall();
   def.material = material("concrete_soft");
   def.anchored = false;
@@ -100,6 +101,7 @@ TEST(Coupling, DebrisPushTheElementsTheyHit) {
   BulletWorld w;
   w.world.setGravity({0, 0, 0});
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = smallWall();
   def.material = material("concrete_soft");
   def.material.crushEfficiency = 1e-3;

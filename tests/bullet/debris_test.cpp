@@ -40,6 +40,7 @@ struct ElementVolley {
   explicit ElementVolley(int count, Precision precision) : world(of(precision)) {
     world.world.setGravity({0, 0, 0});
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = std::make_shared<const Asset>(
         gridAsset({.cubes = {1, 1, 1}, .edge = kEdge, .origin = {0, 5, 0}, .anchored = false}));
     def.material = material("concrete_soft");
@@ -184,6 +185,7 @@ struct RestingDebris : BulletWorld {
   // 100 elements of 5 cm in one layer, its top at `height`.
   DestructibleBody* addSlab(double height) {
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = std::make_shared<const Asset>(gridAsset(
         {.cubes = {10, 1, 10}, .edge = 0.05, .origin = {-0.25, height - 0.05, -0.25}, .anchored = false}));
     def.material = material("concrete_soft");

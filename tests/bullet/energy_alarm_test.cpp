@@ -15,6 +15,7 @@ namespace {
 // Of 0.3 x 0.1 x 0.3 m, 1 mm above `height`, its middle above the origin.
 void addSlab(BulletWorld& w, double height) {
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = std::make_shared<const Asset>(gridAsset(
       {.cubes = {3, 1, 3}, .edge = 0.1, .origin = {-0.15, height + 0.001, -0.15}, .anchored = false}));
   def.material = material("concrete_soft");

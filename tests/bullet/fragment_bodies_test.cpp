@@ -21,6 +21,7 @@ struct StruckBar : BulletWorld {
   explicit StruckBar(std::uint32_t least, std::uint32_t most = 2, double height = 5)
       : BulletWorld(definition(least, most)) {
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = std::make_shared<const Asset>(gridAsset({.cubes = {16, 2, 2}, .edge = 0.1}));
     def.material = material("concrete_soft");
     def.transform.setOrigin({0, btScalar(height), 0});

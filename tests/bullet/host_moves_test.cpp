@@ -153,6 +153,7 @@ TEST(HostMoves, ARigidBodyThatIsPutIntoElementsIsNotThrown) {
     SCOPED_TRACE(mass);
     BulletWorld w;
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = std::make_shared<const Asset>(gridAsset({.cubes = {4, 1, 4}, .edge = 0.1}));
     def.material = material("concrete_soft");
     w.destruction->addBody(def);

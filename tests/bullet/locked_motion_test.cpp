@@ -25,6 +25,7 @@ struct LockedWorld : BulletWorld {
   /// One cube about `at`, whose blows lose nothing.
   DestructibleBody* addCube(const btVector3& at, bool anchored, const btVector3& velocity) {
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = std::make_shared<const Asset>(
         gridAsset({.cubes = {1, 1, 1},
                    .edge = kCubeSide,

@@ -209,6 +209,7 @@ TEST(MeshGround, RubbleAndDebrisStayAbove) {
   w.add(0, shape, {0, 0, 0});
   Material weak = material("concrete_soft");
   DestructibleBodyDef wall;
+  wall.regime = Regime::Elements;
   wall.asset = smallWall();
   wall.material = weak;
   wall.transform.setOrigin({0, btScalar(kBumps), 0});

@@ -18,6 +18,7 @@ const btVector3 kDown(0, btScalar(-9.81), 0);
 
 DestructibleBodyDef wall() {
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = smallWall();
   return def;
 }

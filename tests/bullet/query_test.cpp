@@ -69,6 +69,7 @@ class QueryWall : public testing::TestWithParam<WallCase> {
     def.asset = std::make_shared<const Asset>(cookStrictly(boxMesh({1, 1, GetParam().thickness}), options));
     def.material = material("concrete_soft");
     def.anchored = false;
+    def.regime = Regime::Elements;
     def.transform.setOrigin({0, 5, 0});
   }
   void addAndStep(int ticks) {
@@ -331,6 +332,7 @@ TEST(Query, ManifoldShowsTheBlowAndBulletLeavesItAlone) {
 TEST(Query, ManifoldShowsWhatSleepsAndWhatMoves) {
   BulletWorld w;
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = std::make_shared<const Asset>(gridAsset({{8, 2, 4}, 0.05, Eigen::Vector3d::Zero()}));
   def.anchored = false;
   DestructibleBody* slab = w.destruction->addBody(def);

@@ -324,13 +324,17 @@ TEST(Regime, WholeBodiesAreRemovedAsOthersAre) {
 TEST(Regime, ASolidThatFewConvexPartsDoNotFitStaysElementsAndThatIsSaid) {
   std::vector<std::string> lines;
   DestructionDef definition;
-  definition.log = [&](LogLevel, const std::string& line) { lines.push_back(line); };
+  definition.log = [&](LogLevel level, const std::string& line) {
+    EXPECT_EQ(level, LogLevel::Info) << line;
+    lines.push_back(line);
+  };
   BulletWorld w(definition);
   DestructibleBodyDef def = blockDef({1, 1, 1}, {0, 0, 0});
   def.asset = comb();
   EXPECT_FALSE(w.destruction->addBody(def)->isWhole());
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(lines.back().find("convex parts"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find(": is elements from the start: few convex parts"), std::string::npos)
+      << lines.back();
 }
 
 }  // namespace

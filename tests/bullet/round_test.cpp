@@ -27,6 +27,7 @@ struct Slab : BulletWorld {
     def.material = material("concrete_soft");
     def.material.friction = 1;
     def.anchored = true;
+    def.regime = Regime::Elements;
     slab = destruction->addBody(def);
   }
   btRigidBody* put(btCollisionShape& shape, double height,

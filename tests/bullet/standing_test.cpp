@@ -48,6 +48,7 @@ TEST(Standing, CubeRestsOnACrateThatSlept) {
   for (int frame = 0; frame < 180; ++frame) w.world.stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
   ASSERT_FALSE(crate->isActive());
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = smallWall();
   def.material = material("concrete_soft");
   def.anchored = false;
@@ -77,6 +78,7 @@ TEST(Standing, MomentumScaleDoesNotGrowWithTimeAtRest) {
   definition.sleep = false;
   BulletWorld w(definition);
   DestructibleBodyDef def;
+  def.regime = Regime::Elements;
   def.asset = std::make_shared<const Asset>(
       gridAsset({.cubes = {3, 2, 2}, .edge = 0.1, .origin = {0, 0.001, 0}, .anchored = false}));
   def.material = material("concrete_soft");

@@ -41,6 +41,7 @@ struct Range {
 
   DestructibleBody* addPane(const char* name, double z = 0, double speed = 0) {
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = smallWall();
     def.material = material(name);
     def.material.tensileStrength = 1.5e3;  // bears hardly more than its weight
@@ -174,6 +175,7 @@ TEST(Filter, BodyThatIsFilteredOutIsNotTouchedBesideOneThatIsNot) {
     btRigidBody* ball = w.add(1, w.ballShape, {0, btScalar(0.25), btScalar(-0.2)});
     ball->setLinearVelocity({0, 0, 5});
     DestructibleBodyDef def;
+    def.regime = Regime::Elements;
     def.asset = smallWall();
     def.material = material("concrete_soft");
     def.transform.setOrigin({0, 0, btScalar(0.1)});
@@ -208,6 +210,7 @@ TEST(Swept, ElementFirstSeenDeepIsNoFasterThanItCame) {
       btBoxShape side({btScalar(0.1), 1, 1});
       w.add(0, side, {btScalar(-0.1 - 1.3 * kRadius), 0, 0});
       DestructibleBodyDef def;
+      def.regime = Regime::Elements;
       def.asset = std::make_shared<const Asset>(
           gridAsset({.cubes = {1, 1, 1}, .edge = kEdge, .origin = {0, 0, 0}, .anchored = false}));
       def.material = material("concrete");

@@ -135,9 +135,9 @@ TEST_F(Advice, SizesThatAreHardlyMetresAreAskedAbout) {
 TEST_F(Advice, WhatCannotStandFallsOrStopsWithItsNameAndCause) {
   for (const char* text :
        {R"({"frames": 6, "objects": [{"size": [1000, 1000, 80], "position": [0, 500, 0], "elements": 300,
-             "anchor": [0, -1, 0]}], "statics": [{"shape": "plane"}], "debris": {}})",
+             "anchor": [0, -1, 0], "regime": "elements"}], "statics": [{"shape": "plane"}], "debris": {}})",
         R"({"frames": 6, "objects": [{"size": [300, 300, 30], "position": [0, 150, 0], "elements": 300,
-             "anchor": [0, -1, 0]}], "statics": [{"shape": "plane"}], "debris": {}})"}) {
+             "anchor": [0, -1, 0], "regime": "elements"}], "statics": [{"shape": "plane"}], "debris": {}})"}) {
     const Scene scene = load(text);
     demo::World world(scene, demo::cookObjects(scene), log());
     const Eigen::Vector3d size = scene.objects[0].size;
@@ -161,7 +161,7 @@ TEST_F(Advice, WhatCannotStandFallsOrStopsWithItsNameAndCause) {
 TEST_F(Advice, NumbersThatRunAwayStopTheRunWithTheObject) {
   const Scene scene =
       load(object(R"("size": [1, 1, 1], "position": [0, 5, 0], "material": {"tensile_strength": 0,
-      "compressive_strength": 1, "crush_efficiency": 1e-9})") +
+      "compressive_strength": 1, "crush_efficiency": 1e-9}, "regime": "elements")") +
            R"(, "frames": 1, "debris": {}, "gravity": [0, 0, 0],
       "impactors": [{"shape": "sphere", "radius": 0.4, "mass": 100, "position": [0, 5, 0.92], "velocity": [0, 0, -9]}]})");
   demo::World world(scene, demo::cookObjects(scene), log());
@@ -207,7 +207,8 @@ TEST_F(Hulls, WithoutVolumeAreRefused) {
 
 // As an application may make it.
 TEST_F(Hulls, TheLibrarySaysWhatIsWrongWithAFlatOne) {
-  Scene scene = load(R"({"objects": [{"elements": 8, "size": [1, 1, 1]}], "gravity": [0, 0, 0]})");
+  Scene scene = load(
+      R"({"objects": [{"elements": 8, "size": [1, 1, 1], "regime": "elements"}], "gravity": [0, 0, 0]})");
   demo::SceneBody plate;
   plate.shape = demo::SceneBody::Shape::Hull;
   plate.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};

@@ -257,7 +257,7 @@ TEST_F(Program, ContactsTooStiffForTheSubstepsAllowedAreSoftenedAndToldOf) {
   const auto scene = [](const std::string& substeps) {
     return R"({"frames": 30, "breaking": false, "statics": [{"shape": "plane"}], "max_substeps_per_frame": )" +
            substeps + R"(, "objects": [{"size": [0.5, 0.5, 0.5], "position": [0, 0.3, 0], "elements": 128,
-               "material": {"contact_stiffness": 20}}]})";
+               "regime": "elements", "material": {"contact_stiffness": 20}}]})";
   };
   m_folder.write("tight.json", scene("1000"));
   const ChildResult info = run("info tight.json");
@@ -296,7 +296,7 @@ TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
            "precision": "double", "gravity": [0, -1000, 0],
            "objects": [{"size": [3.6, 3.6, 0.18], "elements": 40, "velocity": [0, -10000, 0],
                         "spin": [-10000, 10000, 10000],
-                        "material": {"youngs_modulus": 1, "spring_damping": 0.5}}]})";
+                        "regime": "elements", "material": {"youngs_modulus": 1, "spring_damping": 0.5}}]})";
   stop(spinning,
        "object 0 (concrete_soft, 3.6 m tall): the state of its elements is not finite, first that of ");
   stop(spinning,
@@ -305,7 +305,7 @@ TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
   // What its weight foretells is said with it: rho g H = 1e5 kg/m^3 x 1000 m/s^2 x 0.16 m.
   stop(R"({"frames": 6, "breaking": false, "precision": "double", "gravity": [0, 1000, 0],
            "objects": [{"size": [0.16, 0.16, 0.16], "elements": 40, "velocity": [0, 0, 10000],
-                        "spin": [10000, 10000, -10000], "anchor": [0, -1, 0],
+                        "spin": [10000, 10000, -10000], "anchor": [0, -1, 0], "regime": "elements",
                         "material": {"youngs_modulus": 1000, "density": 100000}}]})",
        "kilograms; its own weight pulls at its top with 16 MPa, more than its tensile strength of 200 kPa");
 }

@@ -35,7 +35,8 @@ class TestFolder {
 /// A small wall that a ball goes through: 128 elements, quick to cook and to simulate.
 inline const char* const kSmallWall = R"({
   "frames": 5,
-  "objects": [{"size": [0.5, 0.5, 0.08], "position": [0, 0.25, 0], "elements": 128, "anchor": [0, -1, 0]}],
+  "objects": [{"size": [0.5, 0.5, 0.08], "position": [0, 0.25, 0], "elements": 128, "anchor": [0, -1, 0],
+               "regime": "elements"}],
   "impactors": [{"shape": "sphere", "radius": 0.1, "mass": 20, "position": [0, 0.25, -0.2], "velocity": [0, 0, 10]}],
   "statics": [{"shape": "plane"}],
   "dust": {"resolution": 16, "min": [-1, 0, -1], "max": [1, 1.5, 1]},

@@ -49,6 +49,13 @@ TEST_F(SceneFile, EmptyObjectIsTheDefaults) {
   EXPECT_TRUE(scene.objects.empty());
 }
 
+TEST_F(SceneFile, AnObjectIsWholeUnlessItSaysElements) {
+  const Scene scene =
+      load(R"({"objects": [{"size": [1, 1, 1]}, {"size": [1, 1, 1], "regime": "elements"}]})");
+  EXPECT_EQ(scene.objects[0].regime, Regime::RigidUntilStruck);
+  EXPECT_EQ(scene.objects[1].regime, Regime::Elements);
+}
+
 TEST_F(SceneFile, PartsThatAreNotNamedAreLeftOut) {
   EXPECT_FALSE(load("{}").dust);
   EXPECT_FALSE(load("{}").debris);
@@ -313,6 +320,14 @@ TEST(BundledScenes, AreAllAcceptedAndListedInTheirReadme) {
     EXPECT_NE(readme.str().find("| `" + name + "` |"), std::string::npos) << name;
   }
   EXPECT_GE(count, 2);
+}
+
+// They are the paper's, or measured against a reference: as elements from the start.
+TEST(BundledScenes, NameTheirRegimeExceptTheStack) {
+  std::istringstream names(demo::sceneNames());
+  for (std::string name; std::getline(names >> std::ws, name, ',');)
+    for (const demo::SceneObject& object : demo::loadScene(name).objects)
+      EXPECT_EQ(object.regime, name == "stack" ? Regime::RigidUntilStruck : Regime::Elements) << name;
 }
 
 TEST(BundledScenes, ReadmeDocumentsEveryKey) {

@@ -17,8 +17,8 @@ RUBBLE_ABI_BEGIN
 /// centre of mass of all and turns with the heaviest. Velocities, impulses, forces and its own gravity that
 /// the application sets act on all of them as one in the next tick; a transform puts all of them there,
 /// anchors too. Joints hold it: once in several pieces Bullet sees the heaviest that a joint holds in place
-/// of all. While it is whole (Regime::RigidUntilStruck) it is a rigid body as any other. Either way poses()
-/// tells where the elements are. Made by Destruction::addBody only.
+/// of all. While it is whole, as the default is until it is struck, it is a rigid body as any other. Either
+/// way poses() tells where the elements are. Made by Destruction::addBody only.
 class DestructibleBody : public btRigidBody {
  public:
   ~DestructibleBody() override;

@@ -75,7 +75,9 @@ struct DestructibleBodyDef {
   /// begins with its motion (`velocity` and `spin` are not looked at), does not touch it where anchors hold
   /// it, and stays elements in any regime. Once that body has left the world its anchors hold where they are.
   btRigidBody* anchorBody = nullptr;
-  Regime regime = Regime::Elements;
+  /// Whole, and for nothing, until something strikes it. Regime::Elements for one that is to bend and ring
+  /// from the first tick on, and for the paper's letter.
+  Regime regime = Regime::RigidUntilStruck;
   int collisionGroup = btBroadphaseProxy::DefaultFilter;
   int collisionMask = btBroadphaseProxy::AllFilter;
 };
@@ -117,7 +119,8 @@ class Destruction : public btActionInterface {
   DestructibleBody* addBody(const DestructibleBodyDef& def);
   void removeBody(DestructibleBody* body);
   /// Lets the anchors of a body hold to another, from where both are; null: to the world. Throws
-  /// rubble::Error for one that anchors cannot hold to, and of a body that Bullet may move as a whole.
+  /// rubble::Error for one that anchors cannot hold to, and of a body that Bullet may move as a whole: one
+  /// that was added with Regime::Elements, or with an anchorBody, it never does.
   void setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody);
   /// Hands a whole body to its elements in the next tick, as a blow does: for what the application alone
   /// knows of, a blast or a cut. Nothing to do for others.

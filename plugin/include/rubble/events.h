@@ -56,7 +56,8 @@ struct BodySplit {
   float mass;              ///< [kg]
 };
 
-/// Sum over one tick of what a Bullet body and a destructible body did to each other.
+/// Sum over one tick of what a Bullet body and a destructible body did to each other while its elements moved
+/// it. What touches a whole body is in Bullet's manifolds, as of any rigid body.
 struct ContactImpulse {
   std::uint32_t body;
   const void* other;         ///< the btCollisionObject

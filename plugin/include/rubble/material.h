@@ -72,7 +72,7 @@ struct Model {
   DebrisSizes debrisSizes = DebrisSizes::Mass;
   CellJoining cellJoining = CellJoining::Transitive;
 
-  static Model paper();
+  static Model paper();  ///< its bodies are Regime::Elements, too: that is no part of a model
 };
 
 /// Scalar of the elements' state. One source, both compiled in.
