@@ -142,7 +142,7 @@ void Destruction::Impl::setAnchorBody(DestructibleBody& body, btRigidBody* base,
 }
 
 void Destruction::Impl::carryAnchored(double dt) {
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     DestructibleBody::Impl& own = implOf(*body);
     bullet::AnchorBody& anchor = own.anchorBody;
     if (!anchor.body) continue;
@@ -181,14 +181,14 @@ void Destruction::Impl::rideAnchored(DestructibleBody& body) {
 // Fastest element of all bodies that ride on an object, and of `own` [m/s].
 double Destruction::Impl::speedOn(const btCollisionObject& object, const DestructibleBody& own) const {
   double fastest = solver->maxSpeed(own.id());
-  for (const DestructibleBody* body : bodies)
+  for (const DestructibleBody* body : elementBodies)
     if (implOf(*body).anchorBody.ridden && implOf(*body).anchorBody.is(object))
       fastest = std::max(fastest, solver->maxSpeed(body->id()));
   return fastest;
 }
 
 void Destruction::Impl::waitForAnchored() {
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     const bullet::AnchorBody& anchor = implOf(*body).anchorBody;
     if (anchor.body && anchor.ridden && body->isActive() && bullet::isThere(world, anchor) &&
         anchor.body->isActive())
@@ -198,7 +198,7 @@ void Destruction::Impl::waitForAnchored() {
 
 // What anchors hold stands or hangs on that body by them.
 void Destruction::Impl::bearAnchored() {
-  for (const DestructibleBody* body : bodies)
+  for (const DestructibleBody* body : elementBodies)
     for (std::size_t p = 0; implOf(*body).anchorBody.body && p < proxies.size(); ++p)
       if (implOf(*body).anchorBody.is(*touched[p].object)) proxies[p].bears.push_back(body->id());
 }

@@ -24,24 +24,31 @@ struct DestructibleBody::Impl {
     Whole,    // Bullet's
     Thawing,  // the elements', from within a tick of Bullet's; Bullet's part follows at its end
   };
+  // What each tick looks at of a whole body stands first, in one line of the cache.
   State state = State::Elements;
+  std::uint32_t id = 0;
+  Destruction::Impl* world = nullptr;  ///< null once the Destruction is gone
+  double strikingSpeed = 0;            ///< what nears it faster strikes it [m/s]; of one that may be whole
+  btScalar reach = 0;                  ///< of its shape about Bullet's centre [m]
+  int idleTicks = 0;                   ///< for which its coupler was in Bullet's world for nothing
+  bool coupled = false;                ///< its coupler is in Bullet's world
+  bool met = false;                    ///< while whole: in this tick, by what may strike it
+  bool struck = false;                 ///< while whole: by the application, or overloaded
+  bool held = false;                   ///< by anchors
+  bool isSettled = false;              ///< its load, when that was last looked at
+  bool isGauged = false;               ///< in this tick
+  std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
   bullet::WholeShape whole;                   ///< without a shape while the body is not to be whole
-  bool held = false;                          ///< by anchors
   int flags = 0;                              ///< Bullet's of collision, from before the thaw
   bullet::AnchorBody anchorBody;              ///< while anchors hold to one
   bullet::HostSettings settings;              ///< from before the thaw
   double restTime = 0;                        ///< since it was last too restless to be whole [s]
-  bool struck = false;                        ///< while whole: by the application, or overloaded
-  std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
   bullet::Pressure pressure;                  ///< of its contacts while whole, of this tick
-  bool isGauged = false;                      ///< in this tick
   std::vector<bullet::ContactPatch> patches;  ///< on it while whole, of this tick
   double thawLoad = 0;                        ///< share of strength for which it thawed; 0: not by a load
   double survivedLoad = 0;                    ///< the largest of these from which it came back whole
   double easeTime = 0;                        ///< for which it is still eased into a load [s]
-  Destruction::Impl* world = nullptr;         ///< null once the Destruction is gone
-  std::uint32_t id = 0;
-  std::uint32_t source = 0;  ///< id of the body that was added and of which it is a part
+  std::uint32_t source = 0;                   ///< id of the body that was added and of which it is a part
   std::shared_ptr<const Asset> asset;
   rubble::Material material;
   Model model;

@@ -10,6 +10,13 @@ RUBBLE_ABI_BEGIN
 DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl)
     : btRigidBody(info), m_impl(std::move(impl)) {
   setUserIndex3(kDestructibleMark);
+  setIgnoreCollisionCheck(this, true);  // while there is one that it ignores, Bullet asks it
+}
+
+bool DestructibleBody::checkCollideWithOverride(const btCollisionObject* other) const {
+  const bool may = btRigidBody::checkCollideWithOverride(other);
+  if (may && m_impl->world) m_impl->world->meet(const_cast<DestructibleBody&>(*this), *other);
+  return may;
 }
 
 DestructibleBody::~DestructibleBody() {
@@ -43,6 +50,15 @@ const Model& DestructibleBody::model() const {
 void DestructibleBody::poses(std::span<ElementPose> out) const {
   const edem::Solver& solver = *m_impl->world->solver;
   const edem::BodyView view = solver.view(m_impl->id);
+  // The solver's are placed when it needs them; nothing is written here, so that threads may ask at once.
+  const Eigen::Isometry3d place = bullet::toEigen(getWorldTransform()) * m_impl->whole.frame.inverse();
+  if (isWhole() && !m_impl->held && place.matrix().allFinite()) {
+    const Eigen::Vector4f turn = Eigen::Quaterniond(place.linear()).normalized().coeffs().cast<float>();
+    const std::vector<Eigen::Vector3d>& positions = m_impl->asset->positions;
+    for (std::size_t i = 0; i < out.size() && i < positions.size(); ++i)
+      out[i] = {(place * positions[i]).cast<float>(), 1.0f, turn};
+    return;
+  }
   for (std::size_t i = 0; i < out.size() && i < view.alive.size(); ++i) {
     out[i].position = solver.position(m_impl->id, i).cast<float>();
     out[i].alive = view.alive[i] ? 1.0f : 0.0f;

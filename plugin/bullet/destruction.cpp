@@ -47,6 +47,7 @@ void Destruction::setAnchorBody(DestructibleBody* body, btRigidBody* anchorBody)
 void Destruction::strike(DestructibleBody* body) {
   if (!body->isWhole()) return;
   implOf(*body).struck = true;
+  m_impl->couple(*body);
   body->activate(true);
 }
 
@@ -104,6 +105,7 @@ int Destruction::lastSubsteps() const {
   return m_impl->substeps;
 }
 std::uint64_t Destruction::hash() const {
+  m_impl->placeWholes();
   return m_impl->solver->hash();
 }
 std::uint64_t Destruction::debrisHash() const {
@@ -115,6 +117,7 @@ void Destruction::updateAction(btCollisionWorld*, btScalar dt) {
 }
 
 void Destruction::debugDraw(btIDebugDraw* drawer) {
+  m_impl->placeWholes();
   for (const DestructibleBody* body : m_impl->bodies) {
     const edem::BodyView view = m_impl->solver->view(body->id());
     const auto radius = btScalar(m_impl->solver->radius(body->id()));

@@ -43,14 +43,17 @@ bool isCalm(const edem::Unrest& unrest, double strikingSpeed, double radius) {
 void Destruction::Impl::freezeCalm(double dt) {
   if (!advanced || !failure.empty()) return;
   BT_PROFILE("Rubble freeze calm");
-  for (DestructibleBody* body : bodies) {
+  for (std::size_t b = 0; b < elementBodies.size();) {
+    DestructibleBody* body = elementBodies[b++];
     DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Elements || !own.whole.shape) continue;
     const std::optional<edem::Unrest> unrest = solver->unrest(own.id);
     const bool calm = unrest && isCalm(*unrest, bullet::strikingSpeed(own.material), solver->radius(own.id));
     const bool eased = own.easeTime > 0;  // and would bend further
     own.restTime = calm && !eased ? own.restTime + dt : 0;
-    if (own.restTime > kRestTime) freeze(*body);
+    if (!(own.restTime > kRestTime)) continue;
+    freeze(*body);
+    --b;  // it has left the list
   }
 }
 
@@ -58,10 +61,13 @@ void Destruction::Impl::freezeCalm(double dt) {
 void Destruction::Impl::freeze(DestructibleBody& body) {
   DestructibleBody::Impl& own = implOf(body);
   const edem::ParkedMotion motion = *solver->park(own.id);
+  delist(body);
   own.state = DestructibleBody::Impl::State::Whole;
-  ++wholes;
+  enlist(body);
+  coupledWholes += own.coupled;
   own.survivedLoad = std::max(own.survivedLoad, std::exchange(own.thawLoad, 0));
   own.gauge->reset();
+  own.isSettled = false;
   const Eigen::Isometry3d at = motion.place * own.whole.frame;
   bullet::beRigid(body, toBullet(at));
   bullet::restore(body, own.settings, world.getGravity());

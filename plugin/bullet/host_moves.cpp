@@ -52,7 +52,7 @@ std::optional<btVector3> Destruction::Impl::takeGravity(DestructibleBody& body) 
 
 void Destruction::Impl::takeHostMoves(double dt) {
   BT_PROFILE("Rubble take host moves");
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Elements || !isFinite(*body)) continue;
     takeGravity(*body);

@@ -20,6 +20,8 @@ using bullet::toEigen;
 constexpr double kLoadShare = 0.5;
 // What a body has survived was the estimate's fault: it thaws again for this many times as much.
 constexpr double kMoreThanSurvived = 1.5;
+// What lies as it lay is looked at this often: half of the time over which the gauge smooths [s].
+constexpr double kLookTime = 0.05;
 // A share below which a body that nothing touches has forgotten its loads.
 constexpr double kForgotten = 1e-3;
 // Elements begin unbent under a load that has been there all along, and would swing to twice the bending.
@@ -52,23 +54,33 @@ void visitWhole(btDispatcher& dispatcher, Visit&& visit) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
     for (const bool second : {false, true}) {
       const btCollisionObject* object = second ? manifold.getBody1() : manifold.getBody0();
+      if (!object->isActive()) continue;
       auto* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
-      if (body && body->isWhole() && body->isActive() && isSolved(manifold)) visit(*body, manifold, second);
+      if (body && body->isWhole() && isSolved(manifold)) visit(*body, manifold, second);
     }
   }
 }
 
 }  // namespace
 
-void Destruction::Impl::sumPressures() {
-  visitWhole(*world.getDispatcher(), [](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
-    const btTransform& place = body.getWorldTransform();
-    for (int p = 0; p < manifold.getNumContacts(); ++p) {
-      const btManifoldPoint& point = manifold.getContactPoint(p);
-      const btVector3& at = second ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
-      implOf(body).pressure.add(double(point.m_appliedImpulse), toEigen(place.invXform(at)));
-    }
-  });
+// By turns, for a look goes through memory that nothing else needs.
+bool Destruction::Impl::isDue(const DestructibleBody& body, double dt) const {
+  const DestructibleBody::Impl& own = implOf(body);
+  const auto turns = std::uint64_t(std::max(1.0, kLookTime / dt));
+  return !own.isSettled || (ticks + own.id) % turns == 0;
+}
+
+void Destruction::Impl::sumPressures(double dt) {
+  visitWhole(*world.getDispatcher(),
+             [=, this](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
+               if (!isDue(body, dt)) return;
+               const btTransform& place = body.getWorldTransform();
+               for (int p = 0; p < manifold.getNumContacts(); ++p) {
+                 const btManifoldPoint& point = manifold.getContactPoint(p);
+                 const btVector3& at = second ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
+                 implOf(body).pressure.add(double(point.m_appliedImpulse), toEigen(place.invXform(at)));
+               }
+             });
 }
 
 void Destruction::Impl::gatherPatches(double dt) {
@@ -82,23 +94,24 @@ void Destruction::Impl::gatherPatches(double dt) {
 
 // Most that is awake lies as it lay, and is looked at no further.
 void Destruction::Impl::noteLoads(double dt) {
-  if (wholes == 0 || !(dt > 0)) return;
+  if (awakeWholes.empty() || !(dt > 0)) return;
   BT_PROFILE("Rubble note loads");
-  sumPressures();
+  sumPressures(dt);
   bool any = false;
-  for (DestructibleBody* body : bodies) {
-    if (!body->isWhole() || !body->isActive()) continue;
+  for (DestructibleBody* body : awakeWholes) {
+    if (!body->isActive() || !isDue(*body, dt)) continue;
     DestructibleBody::Impl& own = implOf(*body);
     bullet::Pressure pressure = std::exchange(own.pressure, {});
     if (own.held) pressure.gravity = toEigen(world.getGravity());
-    own.isGauged = !own.gauge->isSettled(pressure, double(body->getAngularVelocity().length()), dt);
+    own.isSettled = own.gauge->isSettled(pressure, double(body->getAngularVelocity().length()), dt);
+    own.isGauged = !own.isSettled;
     any = any || own.isGauged;
   }
   if (!any) return;
   gatherPatches(dt);
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : awakeWholes) {
     DestructibleBody::Impl& own = implOf(*body);
-    if (!std::exchange(own.isGauged, false) || !body->isWhole()) continue;
+    if (!std::exchange(own.isGauged, false)) continue;
     if (own.patches.empty() && !own.held && own.gauge->share() < kForgotten) {
       own.gauge->reset();
       continue;
@@ -116,6 +129,7 @@ void Destruction::Impl::noteLoads(double dt) {
     if (!(share > std::max(kLoadShare, kMoreThanSurvived * own.survivedLoad))) continue;
     own.struck = true;
     own.thawLoad = share;
+    couple(*body);
   }
 }
 

@@ -38,10 +38,8 @@ void PushOut::limit(btDynamicsWorld& world, double dt) {
   m_limited.clear();
   if (!(dt > 0)) return;
   const btContactSolverInfo& info = world.getSolverInfo();
-  // What overlaps leaves at one speed, by the share erp of the long tick's depth in the time of that tick.
-  m_longest = std::max(dt, m_longest - double(info.m_erp2) * dt);
   const btScalar step = btScalar(dt);
-  const btScalar longest = btScalar(m_longest);
+  const btScalar longest = btScalar(this->longest(info, dt));
   constexpr int kOwn = BT_CONTACT_FLAG_HAS_CONTACT_ERP | BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
@@ -69,6 +67,15 @@ void PushOut::limit(btDynamicsWorld& world, double dt) {
     }
   }
   std::ranges::sort(m_limited, {}, &Limited::point);
+}
+
+// What overlaps leaves at one speed, by the share erp of the long tick's depth in the time of that tick.
+double PushOut::longest(const btContactSolverInfo& info, double dt) const {
+  return std::max(dt, m_longest - double(info.m_erp2) * dt);
+}
+
+void PushOut::note(const btContactSolverInfo& info, double dt) {
+  if (dt > 0) m_longest = longest(info, dt);
 }
 
 void PushOut::restore(btDispatcher& dispatcher) {

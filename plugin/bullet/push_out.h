@@ -18,10 +18,15 @@ class PushOut {
   /// have in the long ticks before, and not where restitution parts them as fast. What it lifts out by place
   /// alone bounces by so much less.
   void limit(btDynamicsWorld& world, double dt);
-  /// Once it has: the points are as Bullet made them.
+  /// Whether a tick of `dt` seconds comes after a longer one, from which something may still overlap.
+  bool isAfterLonger(const btContactSolverInfo& info, double dt) const { return longest(info, dt) > dt; }
+  /// At the end of each tick.
+  void note(const btContactSolverInfo& info, double dt);
+  /// Once Bullet has solved them: the points are as Bullet made them.
   void restore(btDispatcher& dispatcher);
 
  private:
+  double longest(const btContactSolverInfo& info, double dt) const;
   double m_longest = 0;  // tick that what still overlaps may have come in [s]
   struct Limited {
     const btManifoldPoint* point;  // compared only

@@ -9,6 +9,7 @@
 
 #include "bullet/body_states.h"
 #include "bullet/convert.h"
+#include "bullet/couplers.h"
 #include "bullet/multibody_links.h"
 #include "bullet/swept_bodies.h"
 #include "bullet/thaw.h"
@@ -44,28 +45,6 @@ void clearManifolds(btDispatcher& dispatcher, const btCollisionObject& object) {
   }
 }
 
-// Velocity of a body's centre at the end of the tick, as far as forces go, and what its points are faster
-// [m/s].
-struct Sweep {
-  btVector3 velocity{0, 0, 0};
-  double turning = 0;
-
-  Sweep(const btCollisionObject& object, double dt) {
-    if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
-      const bullet::LinkMotion motion = bullet::motionOf(*link);
-      velocity = toBullet(Eigen::Vector3d(motion.head<3>()));
-      turning = motion.tail<3>().norm() * double(object.getCollisionShape()->getAngularMotionDisc());
-      return;
-    }
-    const btRigidBody* body = btRigidBody::upcast(&object);
-    if (!body || (object.isStaticObject() && !object.isKinematicObject())) return;
-    velocity = body->getLinearVelocity() + btScalar(dt) * body->getInvMass() * body->getTotalForce();
-    const btVector3 spin = body->getAngularVelocity();
-    if (!spin.fuzzyZero())
-      turning = double(spin.length() * body->getCollisionShape()->getAngularMotionDisc());
-  }
-};
-
 // Of a whole body whose elements may stand out of its shape by their radius.
 Eigen::AlignedBox3d reachedBox(const DestructibleBody& body, double way) {
   btVector3 low, high;
@@ -96,7 +75,8 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
       bullet::sectionsOf(*own.asset, own.whole.frame, own.whole.elementCentre, view.mass, view.inertia),
       own.material, own.model);
   own.state = DestructibleBody::Impl::State::Whole;
-  ++wholes;
+  own.reach = own.whole.shape->getAngularMotionDisc();
+  own.strikingSpeed = bullet::strikingSpeed(own.material);
   bullet::beNewRigid(body, bodyDef.transform * toBullet(own.whole.frame));
   if (!def.sleep) body.setActivationState(DISABLE_DEACTIVATION);
   if (own.held) return;
@@ -111,16 +91,9 @@ void Destruction::Impl::placeWhole(DestructibleBody& body) {
 
 bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
   if (other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT) return false;  // presses no elements
-  const double least = bullet::strikingSpeed(body.material());
+  const double least = implOf(body).strikingSpeed;
   const DestructibleBody* elements = upcastElements(&other);
-  const Sweep sweep(body, dt);
-  double bound = sweep.turning;
-  if (elements) {
-    bound += implOf(*elements).speed + double(sweep.velocity.length());
-  } else {
-    const Sweep partner(other, dt);
-    bound += partner.turning + double((sweep.velocity - partner.velocity).length());
-  }
+  const double bound = bullet::closingSpeed(body, other, dt).end;
   if (!(bound > least) || !bullet::mayTouch(world, body, other)) return false;
   placeWhole(body);
   if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body, {}), least, dt);
@@ -135,25 +108,31 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
 
 // Before Bullet solves the contacts of this tick.
 void Destruction::Impl::thawStruck(double dt) {
-  if (std::exchange(lookedForBlows, true) || wholes == 0) return;
+  if (std::exchange(lookedForBlows, true) || coupledWholes == 0) return;
   BT_PROFILE("Rubble thaw struck");
   std::vector<DestructibleBody*> struck;
-  for (DestructibleBody* body : bodies)
-    if (body->isWhole() && implOf(*body).struck) struck.push_back(body);
+  bool anyMet = false;
+  for (DestructibleBody* body : wholeBodies) {
+    if (implOf(*body).struck) struck.push_back(body);
+    anyMet = anyMet || implOf(*body).met;
+  }
   const auto look = [&](btCollisionObject& object, btCollisionObject& other) {
     DestructibleBody* body = DestructibleBody::upcast(&object);
-    if (!body || !body->isWhole() || std::find(struck.begin(), struck.end(), body) != struck.end()) return;
+    if (!body || !body->isWhole() || !implOf(*body).met ||
+        std::find(struck.begin(), struck.end(), body) != struck.end())
+      return;
     if (isStruck(*body, other, dt)) struck.push_back(body);
   };
-  visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
+  const auto lookBoth = [&](btCollisionObject& a, btCollisionObject& b) {
     if (!a.hasContactResponse() || !b.hasContactResponse() || (!a.isActive() && !b.isActive())) return;
     look(a, b);
     look(b, a);
-  });
+  };
+  if (anyMet) visitPairs(*world.getPairCache(), lookBoth);
   std::sort(struck.begin(), struck.end(),
             [](const DestructibleBody* a, const DestructibleBody* b) { return a->id() < b->id(); });
   for (DestructibleBody* body : struck) thaw(*body, dt);
-  if (wholes > 0) pushOut.limit(world, dt);
+  if (anyMet) pushOut.limit(world, dt);
 }
 
 // The elements take over in this very tick; Bullet's part of the body follows when its tick is over.
@@ -173,14 +152,17 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
       turn * (toEigen(own.whole.inertia).asDiagonal() * (turn.transpose() * spin)) -
       arm.cross(own.whole.mass * toEigen(velocity));
   energyBalance.beginAnew();
+  delist(body);
+  coupledWholes -= own.coupled;
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
   own.state = DestructibleBody::Impl::State::Thawing;
+  enlist(body);
+  couple(body);
   own.shown = {};
   own.shown.frame = own.whole.frame;
   own.struck = false;
   own.restTime = 0;
   if (own.thawLoad > 0) beginEasing(body);
-  --wholes;
   own.speed = solver->maxSpeed(own.id);
   own.shape->refit(own.speed * dt);
   body.activate(true);
@@ -209,7 +191,7 @@ void Destruction::Impl::cleanPairs(DestructibleBody& body) {
 
 // Now that Bullet has moved what was in its solver.
 void Destruction::Impl::finishThaws() {
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     DestructibleBody::Impl& own = implOf(*body);
     if (own.state != DestructibleBody::Impl::State::Thawing) continue;
     own.state = DestructibleBody::Impl::State::Elements;
@@ -222,8 +204,14 @@ void Destruction::Impl::finishThaws() {
 }
 
 void Destruction::Impl::placeWholes() {
-  for (DestructibleBody* body : bodies)
-    if (body->isWhole() && body->isActive()) placeWhole(*body);
+  for (DestructibleBody* body : wholeBodies) placeWhole(*body);
+}
+
+// The only look at what sleeps in a tick.
+void Destruction::Impl::gatherAwakeWholes() {
+  awakeWholes.clear();
+  for (DestructibleBody* body : wholeBodies)
+    if (body->getActivationState() != ISLAND_SLEEPING) awakeWholes.push_back(body);
 }
 
 RUBBLE_ABI_END

@@ -68,8 +68,7 @@ btTransform Destruction::Impl::placeOfShown(DestructibleBody& body, const edem::
 
 // Bullet sees a body of elements where they are, with the mass and the motion of all of them together.
 void Destruction::Impl::showElements() {
-  for (DestructibleBody* body : bodies)
-    if (!body->isWhole()) showElements(*body);
+  for (DestructibleBody* body : elementBodies) showElements(*body);
 }
 
 void Destruction::Impl::showElements(DestructibleBody& body) {

@@ -101,13 +101,13 @@ void Destruction::Impl::failSolver() {
 }
 
 // By the application, a joint or a neighbour: elements would follow.
-void Destruction::Impl::failSpoiled() {
-  for (const DestructibleBody* body : bodies) {
-    if (!body->isWhole()) continue;
+void Destruction::Impl::failSpoiled(std::span<DestructibleBody* const> looked) {
+  for (const DestructibleBody* body : looked) {
     const btTransform& at = body->getWorldTransform();
-    if (bullet::toEigen(at).matrix().allFinite() && bullet::toEigen(body->getLinearVelocity()).allFinite() &&
-        bullet::toEigen(body->getAngularVelocity()).allFinite())
-      continue;
+    const btMatrix3x3& turn = at.getBasis();
+    const btVector3 sum =
+        at.getOrigin() + turn[0] + turn[1] + turn[2] + body->getLinearVelocity() + body->getAngularVelocity();
+    if ((0 * sum).isZero()) continue;
     fail(*body,
          "while Bullet moved it as one rigid body its place or velocity became no finite number; look for "
          "what set it, or for forces and joints on it");

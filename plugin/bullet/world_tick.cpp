@@ -160,8 +160,9 @@ DestructibleBody* Destruction::Impl::make(std::unique_ptr<DestructibleBody::Impl
 
 void Destruction::Impl::enter(DestructibleBody& body, int group, int mask) {
   world.addRigidBody(&body, group, mask);
-  world.addConstraint(implOf(body).coupler.get());
   bodies.push_back(&body);
+  enlist(body);
+  if (!body.isWhole()) couple(body);
 }
 
 // Says why the state that an asset keeps was of no use.
@@ -191,8 +192,8 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   bodies.erase(found);
   forgetJointsOf(body);
   softContacts.forget(body);
-  wholes -= body.isWhole();
-  world.removeConstraint(implOf(body).coupler.get());
+  delist(body);
+  uncouple(body);
   const edem::Books before = solver->books();
   solver->removeBody(implOf(body).id);
   const edem::Books& after = solver->books();
@@ -202,6 +203,7 @@ void Destruction::Impl::forget(DestructibleBody& body) {
   gone.angular = after.leftAngular - before.leftAngular + after.centre.cross(gone.linear);
   gone.kinetic = after.leftKinetic - before.leftKinetic + after.leftElastic - before.leftElastic;
   ledgerBook.addRemoved(gone);
+  ledgerStale = true;
   energyBalance.beginAnew();
   implOf(body).world = nullptr;
 }
@@ -228,7 +230,7 @@ void Destruction::Impl::gatherProxies(double dt) {
   const std::vector<Eigen::AlignedBox3d> boxes = bullet::reachedBoxes(bodies, dt);
   touched.clear();
   proxies.clear();
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     bullet::AnchorBody& base = implOf(*body).anchorBody;
     std::vector<btCollisionObject*>& near = implOf(*body).near;
     const bool rides = base.body && base.ridden && body->isActive();
@@ -283,7 +285,7 @@ void Destruction::Impl::spareFiltered() {
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     btCollisionObject& object = *touched[p].object;
     if (!object.getBroadphaseHandle()) continue;  // gone from the world since the narrowphase
-    for (DestructibleBody* body : bodies)
+    for (DestructibleBody* body : elementBodies)
       if (body->isActive() && !bullet::mayTouch(world, *body, object))
         proxies[p].spared.push_back(body->id());
   }
@@ -292,16 +294,17 @@ void Destruction::Impl::spareFiltered() {
 void Destruction::Impl::advance(double dt) {
   // Each body's coupler comes, and when nothing is awake all would look at all bodies.
   if (std::exchange(begun, true) || !failure.empty()) return;
-  BT_PROFILE("Rubble advance");
   softContacts.deliver(*solver, dt);
+  substeps = 0;
+  if (elementBodies.empty() && coupledWholes == 0) return;
+  BT_PROFILE("Rubble advance");
   takeHostMoves(dt);
   carryAnchored(dt);
   followSleep();
-  substeps = 0;
-  failSpoiled();
+  failSpoiled(wholeBodies);
   if (!failure.empty()) return;
   thawStruck(dt);
-  if (!solver->anyAwake()) return;
+  if (elementBodies.empty() || !solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
   gatherJoints();
@@ -348,13 +351,13 @@ void Destruction::Impl::advance(double dt) {
     if (proxies[p].isPressed() && !t.rigid->isActive()) t.rigid->activate();
   }
   giveLinks(dt, start);
-  for (DestructibleBody* body : bodies) implOf(*body).shape->setHidden(true);
+  for (DestructibleBody* body : elementBodies) implOf(*body).shape->setHidden(true);
 }
 
 // What asks from now on, even before the tick is over, finds the elements where the substeps left them.
 void Destruction::Impl::followElements() {
   if (!failure.empty()) return;  // places may not be numbers
-  for (DestructibleBody* body : bodies)
+  for (DestructibleBody* body : elementBodies)
     if (!solver->view(body->id()).lies() || !implOf(*body).lay) implOf(*body).shape->follow();
 }
 
@@ -362,7 +365,7 @@ void Destruction::Impl::finish(double dt) {
   BT_PROFILE("Rubble finish");
   advance(dt);
   pushOut.restore(*world.getDispatcher());
-  for (DestructibleBody* body : bodies) {
+  for (DestructibleBody* body : elementBodies) {
     implOf(*body).shape->setHidden(false);
     implOf(*body).near.clear();
   }
@@ -379,19 +382,23 @@ void Destruction::Impl::finish(double dt) {
     breakElements();
     splitBodies();
   }
-  if (debrisSystem && failure.empty()) {
+  const bool hadDebris = std::exchange(hasDebris, debrisSystem && !debrisSystem->pieces().empty());
+  if ((hadDebris || hasDebris) && failure.empty()) {
     const base::ScopeTimer timer(times.debris);
     stepDebris(dt);
+    ledgerStale = true;
   }
+  gatherAwakeWholes();
   noteLoads(dt);
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
   showElements();
-  failSpoiled();
-  if (failure.empty()) placeWholes();
+  failSpoiled(awakeWholes);
   updateSleep(dt);
-  for (DestructibleBody* body : bodies) implOf(*body).inSolver = false;
+  for (DestructibleBody* body : elementBodies) implOf(*body).inSolver = false;
+  uncoupleIdle();
+  pushOut.note(world.getSolverInfo(), dt);
   softContacts.close();
   begun = advanced = lookedForBlows = false;
   ++ticks;
@@ -399,6 +406,7 @@ void Destruction::Impl::finish(double dt) {
 }
 
 void Destruction::Impl::closeLedger(double dt) {
+  if (!advanced && !std::exchange(ledgerStale, false)) return;
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
   double next = 0;
   for (const edem::RigidProxy& proxy : proxies)
@@ -416,16 +424,16 @@ void Destruction::Impl::closeLedger(double dt) {
 // Bullet has put islands to sleep, or woken them.
 void Destruction::Impl::followSleep() {
   BT_PROFILE("Rubble follow sleep");
-  for (DestructibleBody* body : bodies)
+  for (DestructibleBody* body : elementBodies)
     if (implOf(*body).state == DestructibleBody::Impl::State::Elements)
       solver->setAsleep(body->id(), !body->isActive());
 }
 
 // Bullet's own rules decide who sleeps; we tell it whether anything moves.
 void Destruction::Impl::updateSleep(double dt) {
+  if (elementBodies.empty()) return;
   BT_PROFILE("Rubble update sleep");
-  for (DestructibleBody* body : bodies) {
-    if (body->isWhole()) continue;
+  for (DestructibleBody* body : elementBodies) {
     ease(*body, dt);
     const std::uint32_t id = body->id();
     const double speed = implOf(*body).speed = solver->maxSpeed(id);

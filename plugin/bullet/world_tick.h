@@ -2,6 +2,8 @@
 // moved things the debris, the ledger and the events.
 #pragma once
 
+#include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,6 +81,12 @@ struct Destruction::Impl {
   void wakeTouching(const DestructibleBody& body);
   /// After Bullet moved its bodies.
   void finish(double dt);
+  /// The narrowphase is about to look at the two, in this tick or for a query.
+  void meet(DestructibleBody& body, const btCollisionObject& other);
+  /// Puts the body's coupler into Bullet's world.
+  void couple(DestructibleBody& body);
+  /// Puts the elements of whole bodies where Bullet has these, for who reads them.
+  void placeWholes();
   /// Null: none has that id.
   DestructibleBody* bodyOf(std::uint32_t id) const;
 
@@ -110,7 +118,12 @@ struct Destruction::Impl {
   std::uint64_t ticks = 0;  ///< that are over, and their time [s]
   double seconds = 0;
   bullet::WholeShapes wholeShapes;
-  int wholes = 0;               ///< bodies that Bullet moves
+  std::vector<DestructibleBody*> wholeBodies, elementBodies;  ///< `bodies` by who moves them
+  std::vector<DestructibleBody*> awakeWholes;                 ///< scratch of the tick's end
+  bool hasDebris = false;                                     ///< when the last tick ended
+  bool ledgerStale = false;     ///< something has been booked since it was closed
+  int coupledWholes = 0;        ///< whole bodies whose coupler is in the world
+  std::mutex meeting;           ///< for these and the world's constraints, in the narrowphase
   bool lookedForBlows = false;  ///< in this tick
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
   debris::DebrisBatch batch;
@@ -155,7 +168,7 @@ struct Destruction::Impl {
   void enter(DestructibleBody& body, int group, int mask);
   void failSolver();
   /// Ends the simulation where a whole body's place or motion in Bullet is not finite.
-  void failSpoiled();
+  void failSpoiled(std::span<DestructibleBody* const> looked);
   /// Takes what the application has set of bodies that their elements move, and shows it what they do.
   void takeHostMoves(double dt);
   std::optional<btVector3> takeGravity(DestructibleBody& body);
@@ -192,13 +205,20 @@ struct Destruction::Impl {
   void thaw(DestructibleBody& body, double dt);
   /// Looks at the loads that rest on whole bodies; those that may break them thaw in the next tick.
   void noteLoads(double dt);
-  void sumPressures();
+  bool isDue(const DestructibleBody& body, double dt) const;
+  void sumPressures(double dt);
   void gatherPatches(double dt);
   void finishThaws();
   /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
   void beginEasing(DestructibleBody& body);
   void ease(DestructibleBody& body, double dt);
-  void placeWholes();
+  void gatherAwakeWholes();
+  bool mayMatter(const DestructibleBody& body, const btCollisionObject& other) const;
+  void uncouple(DestructibleBody& body);
+  /// Those of whole bodies that nothing has met for long.
+  void uncoupleIdle();
+  void enlist(DestructibleBody& body);
+  void delist(DestructibleBody& body);
   /// Lends bodies that have been calm for long enough to Bullet again.
   void freezeCalm(double dt);
   void freeze(DestructibleBody& body);

@@ -57,6 +57,8 @@ class DestructibleBody : public btRigidBody {
   friend class Destruction;
   friend struct ImplAccess;
   DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl);
+  /// Bullet asks it before it looks for points of contact.
+  bool checkCollideWithOverride(const btCollisionObject* other) const override;
   std::unique_ptr<Impl> m_impl;
 };
 
