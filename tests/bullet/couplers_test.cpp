@@ -6,13 +6,13 @@
 namespace rubble::test {
 namespace {
 
-constexpr btScalar kTick = btScalar(1) / 60;
+constexpr btScalar kSixtieth = btScalar(1) / 60;
 
-void step(BulletWorld& w, int ticks) {
-  for (int t = 0; t < ticks; ++t) w.world.stepSimulation(kTick, 1, kTick);
+void tickOn(BulletWorld& w, int ticks) {
+  for (int t = 0; t < ticks; ++t) w.world.stepSimulation(kSixtieth, 1, kSixtieth);
 }
 
-btRigidBody* shoot(BulletWorld& w, const btVector3& from, const btVector3& velocity) {
+btRigidBody* shootAt(BulletWorld& w, const btVector3& from, const btVector3& velocity) {
   btRigidBody* ball = w.add(10, w.ballShape, from);
   ball->setLinearVelocity(velocity);
   ball->setGravity({0, 0, 0});
@@ -26,11 +26,11 @@ TEST(Couplers, AreNotInTheWorldOfWhatOnlyLies) {
   for (int i = 0; i < 5; ++i)
     blocks.push_back(w.destruction->addBody(blockDef({4, 4, 4}, {btScalar(i), btScalar(0.001), 0})));
   for (DestructibleBody* block : blocks) block->setActivationState(DISABLE_DEACTIVATION);
-  step(w, 120);
+  tickOn(w, 120);
   EXPECT_EQ(w.world.getNumConstraints(), 0);
   EXPECT_TRUE(blocks[2]->isActive());
-  shoot(w, {2 + btScalar(0.1), btScalar(0.1), -1}, {0, 0, 10});
-  step(w, 12);
+  shootAt(w, {2 + btScalar(0.1), btScalar(0.1), -1}, {0, 0, 10});
+  tickOn(w, 12);
   EXPECT_FALSE(blocks[2]->isWhole());
   EXPECT_EQ(w.world.getNumConstraints(), 1);
   w.destruction->removeBody(blocks[2]);
@@ -40,11 +40,11 @@ TEST(Couplers, AreNotInTheWorldOfWhatOnlyLies) {
 TEST(Couplers, AreThereInTheTickOfTheBlow) {
   BulletWorld w;
   DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
-  step(w, 200);
+  tickOn(w, 200);
   ASSERT_TRUE(wall->isAsleep());
   // Added between two ticks, and through the wall in the next.
-  shoot(w, {0, btScalar(0.25), btScalar(-0.6)}, {0, 0, 100});
-  step(w, 1);
+  shootAt(w, {0, btScalar(0.25), btScalar(-0.6)}, {0, 0, 100});
+  tickOn(w, 1);
   EXPECT_FALSE(wall->isWhole());
   EXPECT_GT(w.destruction->counts().springsBroken, 0u);
 }
@@ -53,13 +53,13 @@ TEST(Couplers, AreThereInTheTickOfTheBlow) {
 TEST(Couplers, ComeAlsoOnceTheApplicationHasTakenBackWhatItIgnores) {
   BulletWorld w;
   DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
-  btRigidBody* ball = shoot(w, {0, btScalar(0.25), -1}, {0, 0, 10});
+  btRigidBody* ball = shootAt(w, {0, btScalar(0.25), -1}, {0, 0, 10});
   wall->setIgnoreCollisionCheck(ball, true);
-  step(w, 12);  // goes through it
+  tickOn(w, 12);  // goes through it
   EXPECT_TRUE(wall->isWhole());
   wall->setIgnoreCollisionCheck(ball, false);
   ball->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.25), -1}));
-  step(w, 12);
+  tickOn(w, 12);
   EXPECT_FALSE(wall->isWhole());
 }
 
@@ -72,8 +72,8 @@ TEST(Couplers, ComeUnderANearCallbackOfTheApplications) {
   BulletWorld w;
   static_cast<btCollisionDispatcher*>(w.world.getDispatcher())->setNearCallback(passOn);
   DestructibleBody* wall = w.destruction->addBody(wallDef(Regime::RigidUntilStruck));
-  shoot(w, {0, btScalar(0.25), -1}, {0, 0, 10});
-  step(w, 12);
+  shootAt(w, {0, btScalar(0.25), -1}, {0, 0, 10});
+  tickOn(w, 12);
   EXPECT_FALSE(wall->isWhole());
 }
 
