@@ -16,7 +16,7 @@ class PushOut {
  public:
   /// Before Bullet solves the contacts of a tick: at points of whole bodies it pushes no faster than it would
   /// have in the long ticks before, and not where restitution parts them as fast. What it lifts out by place
-  /// alone bounces by so much less.
+  /// alone bounces by so much less, and what friction would throw up as well (bounce.h).
   void limit(btDynamicsWorld& world, double dt);
   /// Whether a tick of `dt` seconds comes after a longer one, from which something may still overlap.
   bool isAfterLonger(const btContactSolverInfo& info, double dt) const { return longest(info, dt) > dt; }
@@ -30,7 +30,8 @@ class PushOut {
   double m_longest = 0;  // tick that what still overlaps may have come in [s]
   struct Limited {
     const btManifoldPoint* point;  // compared only
-    btScalar restitution;          // that Bullet gave it
+    btScalar restitution, erp;     // that Bullet gave it
+    int flags;
   };
   std::vector<Limited> m_limited;  // by point
 };
