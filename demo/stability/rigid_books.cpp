@@ -49,4 +49,20 @@ double WeightBooks::work(const std::vector<const btRigidBody*>& bodies, double g
   return sum;
 }
 
+double contactWork(const btRigidBody& kinematic, btDispatcher& dispatcher) {
+  double sum = 0;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const double side = manifold.getBody0() == &kinematic ? -1 : manifold.getBody1() == &kinematic ? 1 : 0;
+    for (int p = 0; side != 0 && p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      const btVector3 onBody0 = point.m_appliedImpulse * point.m_normalWorldOnB +
+                                point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                                point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+      sum += side * double(onBody0.dot(kinematic.getLinearVelocity()));
+    }
+  }
+  return sum;
+}
+
 }  // namespace rubble::stability

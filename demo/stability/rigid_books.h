@@ -14,6 +14,10 @@ double kineticEnergy(const std::vector<const btRigidBody*>& bodies);
 /// Place and velocities.
 bool isFinite(const btRigidBody& body);
 
+/// What a kinematic body did by Bullet's contacts on those that touch it in this tick: their impulses along
+/// its way [J].
+double contactWork(const btRigidBody& kinematic, btDispatcher& dispatcher);
+
 /// Work of weights and of the application's forces.
 class WeightBooks {
  public:

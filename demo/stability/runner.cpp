@@ -100,6 +100,8 @@ class Run {
 
   void judge(double dt) {
     m_put += m_weights.work(m_world.moved(), m_case.gravity, dt);
+    if (const btRigidBody* kinematic = m_world.kinematic())
+      m_wholesDriven += contactWork(*kinematic, m_world.bullet().dispatcher);
     judgeEnergy();
     judgeSpeeds(dt);
     judgeBullet();
@@ -111,11 +113,11 @@ class Run {
 
   void judgeEnergy() {
     const Ledger& l = m_world.bullet().destruction->ledger();
-    const std::array numbers = {l.massElements, l.massDebris,   l.massError,   l.linearMomentum.norm(),
-                                l.linearError,  l.angularError, l.kinetic,     l.elastic,
-                                l.gravity,      l.dissipated,   l.fracture,    l.debris,
-                                l.exchanged,    l.removed,      l.energyError, l.made,
-                                l.exchangedNext};
+    const std::array numbers = {l.massElements,  l.massDebris,   l.massError,   l.linearMomentum.norm(),
+                                l.linearError,   l.angularError, l.kinetic,     l.elastic,
+                                l.gravity,       l.dissipated,   l.fracture,    l.debris,
+                                l.exchanged,     l.removed,      l.energyError, l.made,
+                                l.exchangedNext, l.placed};
     for (std::size_t i = 0; i < numbers.size(); ++i)
       if (!std::isfinite(numbers[i]))
         return violate("number " + std::to_string(i) + " of the ledger is not finite");
@@ -125,10 +127,12 @@ class Run {
     if (m_case.paper && m_outcome.work <= m_world.bullet().destruction->lastSubsteps() *
                                               double(m_world.bullet().destruction->counts().elements))
       m_put += std::max(0.0, l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed -
-                                 m_world.elementsPut() - l.gravity - l.exchanged);
-    const double driven = m_case.impactor == Impactor::Kinematic ? std::max(0.0, l.exchanged) : 0;
+                                 m_world.elementsPut() - l.gravity - l.exchanged - l.placed);
+    const double driven = m_case.impactor == Impactor::Kinematic
+                              ? std::max(0.0, l.exchanged) + std::max(0.0, m_wholesDriven)
+                              : 0;
     m_mostDriven = std::max(m_mostDriven, driven);
-    const double put = m_put + l.gravity + m_mostDriven;
+    const double put = m_put + l.gravity + l.placed + m_mostDriven;
     // All of one instant, which is half a substep before that of Bullet's velocities.
     const double held = l.kinetic + l.elastic + l.debris + rigidKinetic() + l.exchangedNext;
     m_mostPut = std::max({m_mostPut, put, m_put});
@@ -192,7 +196,7 @@ class Run {
   Outcome m_outcome;
   double m_put = 0;      // without gravity's work on elements, which the ledger has [J]
   double m_mostPut = 0;  // [J]
-  double m_mostDriven = 0;
+  double m_mostDriven = 0, m_wholesDriven = 0;
   bool m_pushedByBullet = false;
   std::map<std::uint32_t, std::vector<ElementPose>> m_places;
   WeightBooks m_weights;

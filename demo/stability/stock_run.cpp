@@ -11,23 +11,6 @@
 namespace rubble::stability {
 namespace {
 
-// What a kinematic body did on those that touch it in this tick: their impulses along its way [J].
-double workOf(const btRigidBody& kinematic, BulletWorld& bullet) {
-  double sum = 0;
-  for (int i = 0; i < bullet.dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *bullet.dispatcher.getManifoldByIndexInternal(i);
-    const double side = manifold.getBody0() == &kinematic ? -1 : manifold.getBody1() == &kinematic ? 1 : 0;
-    for (int p = 0; side != 0 && p < manifold.getNumContacts(); ++p) {
-      const btManifoldPoint& point = manifold.getContactPoint(p);
-      const btVector3 onBody0 = point.m_appliedImpulse * point.m_normalWorldOnB +
-                                point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                                point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-      sum += side * double(onBody0.dot(kinematic.getLinearVelocity()));
-    }
-  }
-  return sum;
-}
-
 class StockRun {
  public:
   explicit StockRun(const Case& c) : m_case(c), m_world(c, Engine::Stock) {}
@@ -57,7 +40,8 @@ class StockRun {
 
   void judge(double dt) {
     m_put += m_weights.work(m_world.moved(), m_case.gravity, dt);
-    if (const btRigidBody* kinematic = m_world.kinematic()) m_driven += workOf(*kinematic, m_world.bullet());
+    if (const btRigidBody* kinematic = m_world.kinematic())
+      m_driven += contactWork(*kinematic, m_world.bullet().dispatcher);
     m_mostDriven = std::max(m_mostDriven, m_driven);
     const double put = m_put + m_mostDriven, held = kineticEnergy(m_world.moved());
     m_mostPut = std::max(m_mostPut, put);

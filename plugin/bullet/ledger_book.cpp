@@ -13,6 +13,7 @@ void LedgerBook::addExchange(const debris::Exchange& exchange) {
   m_contact += exchange.contact;
   m_removed += exchange.removed;
   m_surfaceWork += exchange.workOnSurfaces;
+  m_ledger.placed += exchange.placed;
   m_impulseSizes +=
       exchange.gravity.linear.norm() + exchange.air.linear.norm() + exchange.contact.linear.norm();
 }
@@ -71,8 +72,8 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
   l.gravity = books.gravity.work.done() + m_gravity.energy;
   l.exchanged = books.bullet.work.done() + books.anchors.work.done() - m_push.received.energy -
                 (m_surfaceWork - m_push.given.energy);
-  l.dissipated =
-      -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy - m_surfaceWork;
+  l.dissipated = -books.dissipated.done() + books.massDamped - m_air.energy - m_contact.energy -
+                 m_surfaceWork + l.placed;
   m_lostByElements = -books.dissipated.done() + books.massDamped + books.fracture + books.slept;
   l.fracture = books.fracture - m_given;
   l.removed = books.slept + m_dust.kinetic + m_removed.kinetic;
@@ -80,7 +81,7 @@ void LedgerBook::close(const edem::Books& books, const debris::Motion& debris) {
       std::max({m_largestEnergy, 1e-6, l.kinetic + l.elastic + std::abs(l.exchanged) + std::abs(l.gravity)});
   l.energyScale = m_largestEnergy;
   const double held = l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed;
-  l.energyError = std::abs(held - books.initialEnergy - l.gravity - l.exchanged) / m_largestEnergy;
+  l.energyError = std::abs(held - books.initialEnergy - l.gravity - l.exchanged - l.placed) / m_largestEnergy;
 }
 
 RUBBLE_ABI_END

@@ -67,6 +67,7 @@ void bookContact(std::uint32_t surface, const Impulse& change, const StepBooks& 
 // is booked as if the piece had it from outside.
 void bookRemainder(std::uint32_t surface, const Impulse& change, double spent, const StepBooks& books) {
   const bool makesEnergy = change.energy + books.surfaces->workOf(surface, change) > spent;
+  if (makesEnergy) books.exchange->placed += std::max(0.0, change.energy - std::max(0.0, spent));
   bookContact(makesEnergy ? kFixedSurface : surface, change, books);
 }
 

@@ -51,6 +51,9 @@ struct Exchange {
   /// Work done on the surroundings by contact [J]; contact.energy + workOnSurfaces is minus what contacts
   /// dissipated: restitution, friction, and what a piece had left when it came to rest.
   double workOnSurfaces = 0;
+  /// Of contact.energy, what no motion gave: pieces that were set out of what they were in against gravity,
+  /// or that waited for a surface to make room, less what that contact dissipated [J], >= 0.
+  double placed = 0;
   Motion added;
   Motion removed;
   std::uint64_t addedCount = 0;

@@ -32,7 +32,8 @@ std::vector<DebrisParcel> volley(int count, const Eigen::Vector3d& target) {
 }
 
 double residual(const Ledger& l) {
-  return l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed - l.gravity - l.exchanged;
+  return l.kinetic + l.elastic + l.debris + l.dissipated + l.fracture + l.removed - l.gravity - l.exchanged -
+         l.placed;
 }
 
 // One step of debris against one free element, without Bullet's tick around it.

@@ -34,6 +34,10 @@ INSTANTIATE_TEST_SUITE_P(Deep, Stability, testing::Values(784, 1045, 1655, 1687)
 // whose energy at the start a part was motion after one tick.
 INSTANTIATE_TEST_SUITE_P(OneTick, Stability, testing::Values(867, 1535, 1444));
 
+// Debris that are set out of what they are in, or wait on what falls away; a bounce with friction at a
+// corner; a whole body that a kinematic one drives.
+INSTANTIATE_TEST_SUITE_P(Placed, Stability, testing::Values(1279, 1917, 2343, 3359, 1452, 3728));
+
 // Cases that once stopped: elements too heavy to become debris, a light body that was not softened with the
 // others, a softness between what was tried and what is allowed, elements that have to be frozen, rounding
 // that was all the energy of a first tick; and four whose elements are pressed so deep into the ground that

@@ -35,6 +35,9 @@ struct Ledger {
   double fracture = 0;    ///< released by broken springs and crushed elements, not given to debris
   double debris = 0;      ///< kinetic energy of debris
   double exchanged = 0;   ///< work done by Bullet's bodies so far
+  /// Put in by place alone, so far: debris that were set out of what they were in, against gravity, or that
+  /// waited for it to make room. No body gave it.
+  double placed = 0;
   /// The energies here are those of the instant of the last forces, velocities those of half a substep later.
   /// At that instant Bullet's dynamic bodies held so much more kinetic energy than by their velocities: what
   /// they do on elements in that half step.

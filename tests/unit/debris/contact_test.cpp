@@ -150,6 +150,33 @@ TEST(Contact, PieceSunkenIntoASurfaceIsPutOutside) {
   system.step(kTick, kDown, ground);
   EXPECT_NEAR(double(system.pieces()[0].position.y()), kRadius, 2e-5);
   EXPECT_LT(system.motion().kinetic, 1e-12) << "and gets no speed from it";
+  // By hand: m g (0.2 m + radius) more than it had.
+  const Exchange exchange = system.takeExchange();
+  EXPECT_NEAR(exchange.placed, 0.01 * kGravity * (0.2 + kRadius), 2e-6);
+  EXPECT_NEAR(exchange.contact.energy, exchange.placed, 2e-6) << "that contacts did not give";
+}
+
+// On what goes away as fast a piece waits until there is room, and has the speed of a fall that it did not
+// make: m g dt v = 0.0245 J.
+TEST(Contact, WhatAWaitingPieceGainsIsBooked) {
+  DebrisSystem system(inVacuum(0));
+  addOne(system, test::stone({0, kRadius, 0}, {0, -5, 0}));
+  Surroundings slab({TestPlane{.velocity = {0, -5, 0}, .surface = 0}});
+  slab.surfaces = 1;
+  system.step(0.05, kDown, slab);
+  const Exchange exchange = system.takeExchange();
+  EXPECT_NEAR(exchange.placed, 0.01 * kGravity * 0.05 * 5, 1e-5);
+  EXPECT_NEAR(exchange.contact.energy + exchange.workOnSurfaces, exchange.placed, 1e-5);
+}
+
+// A fall, a bounce and rest are no place.
+TEST(Contact, WhatFallsIsNotPlaced) {
+  DebrisSystem system(inVacuum());
+  addOne(system, test::stone({0, 1, 0}, {2, 0, 0}));
+  Surroundings ground({kGround});
+  for (int i = 0; i < 240 * 4; ++i) system.step(kTick, kDown, ground);
+  EXPECT_EQ(system.restingCount(), 1u);
+  EXPECT_LT(system.takeExchange().placed, 1e-5 * 0.01 * kGravity);
 }
 
 TEST(Contact, RisingPlatformLiftsAPiece) {
