@@ -89,7 +89,10 @@ Real integrate(Body<Real>& body, double kick, double step, const Eigen::Vector3d
   books.gravity.size += kick * mass * gravity.norm();
   books.gravity.work.add(0.5 * kick * gravity.dot(before), 0.5 * kick * gravity.dot(after));
   books.dissipated.add(0.5 * kick * lost, 0.5 * kick * lostNext);
-  return std::isfinite(kinetic) ? furthest2 : std::numeric_limits<Real>::quiet_NaN();
+  // Faster than light in the mean they are no state any more, though floats still hold it.
+  constexpr double kLight = 3e8;  // [m/s]
+  return std::abs(kinetic) <= 0.5 * mass * kLight * kLight ? furthest2
+                                                           : std::numeric_limits<Real>::quiet_NaN();
 }
 
 template <class Real>

@@ -89,13 +89,21 @@ bool contactsBegan(const World<Real>& w) {
 }
 
 template <class Real>
-std::uint32_t firstSpoiled(const Body<Real>& body) {
-  for (const std::uint32_t i : body.work.awake)
-    if (body.state.alive[i] &&
-        !(body.state.displacement[i].allFinite() && body.state.velocity[i].allFinite() &&
+std::string spoiledText(const Body<Real>& body, int substep) {
+  const std::string end = " in substep " + std::to_string(substep) +
+                          " of its tick; lower substepSafety, or look for units other than metres, seconds, "
+                          "kilograms";
+  const std::string head = "body " + std::to_string(body.id) + ": ";
+  std::uint32_t fastest = body.work.awake.front();
+  for (const std::uint32_t i : body.work.awake) {
+    if (!body.state.alive[i]) continue;
+    if (!(body.state.displacement[i].allFinite() && body.state.velocity[i].allFinite() &&
           body.state.spin[i].allFinite() && body.state.rotation[i].coeffs().allFinite()))
-      return i;
-  return body.work.awake.front();  // only its energy is
+      return head + "the state of its elements is not finite, first that of " + std::to_string(i) + end;
+    if (body.state.velocity[i].squaredNorm() > body.state.velocity[fastest].squaredNorm()) fastest = i;
+  }
+  return head + "its elements move or turn faster than light, the fastest of them " +
+         std::to_string(fastest) + end;
 }
 
 template <class Real>
@@ -149,11 +157,7 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
         integrate(body, kick, step, fall, std::span<const Vec3<double>>(w.lists.grid(b).listed),
                   w.drifts.bodies[b].moved, w.books);
     bookHostLoads(body, kick, w.books);
-    if (!std::isfinite(moved2))
-      w.failure =
-          "body " + std::to_string(body.id) + ": the state of its elements is not finite, first that of " +
-          std::to_string(firstSpoiled(body)) + " in substep " + std::to_string(w.report.substeps) +
-          " of its tick; lower substepSafety, or look for units other than metres, seconds, kilograms";
+    if (!std::isfinite(moved2)) w.failure = spoiledText(body, w.report.substeps);
     if (body.state.easeDamping > 0 && body.state.brokenCount == body.state.easeBroken)
       dampDeformation(body, body.state.easeDamping, kick, w.books);
     moveMotions(body, kick, step, fall);
