@@ -36,6 +36,7 @@ struct DestructibleBody::Impl {
   bool struck = false;                 ///< while whole: by the application, or overloaded
   bool held = false;                   ///< by anchors
   bool isSettled = false;              ///< its load, when that was last looked at
+  int gyroscopicFlags = 0;             ///< Bullet's, taken from it while it turns too fast for its ticks
   bool isGauged = false;               ///< in this tick
   std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
   bullet::WholeShape whole;                   ///< without a shape while the body is not to be whole

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
@@ -68,6 +69,18 @@ void beNewRigid(DestructibleBody& body, const btTransform& at) {
   body.setAngularFactor({0, 0, 0});
   body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
   body.setGravity(noGravity());
+}
+
+void limitGyroscopicTerm(DestructibleBody& body, double dt) {
+  constexpr btScalar kTurn = SIMD_PI;
+  int& taken = implOf(body).gyroscopicFlags;
+  const bool isFast = body.getAngularVelocity().length2() * btScalar(dt * dt) > kTurn * kTurn;
+  if (isFast && (body.getFlags() & kGyroscopic) != 0) {
+    taken = body.getFlags() & kGyroscopic;
+    body.setFlags(body.getFlags() & ~kGyroscopic);
+  } else if (!isFast && taken != 0) {
+    body.setFlags(body.getFlags() | std::exchange(taken, 0));
+  }
 }
 
 RUBBLE_ABI_END

@@ -82,6 +82,7 @@ void Destruction::Impl::beWhole(DestructibleBody& body, const DestructibleBodyDe
   if (own.held) return;
   body.setLinearVelocity(bodyDef.velocity);
   body.setAngularVelocity(bodyDef.spin);
+  bullet::limitGyroscopicTerm(body, double(world.getSolverInfo().m_timeStep));
 }
 
 void Destruction::Impl::placeWhole(DestructibleBody& body) {
@@ -90,15 +91,17 @@ void Destruction::Impl::placeWhole(DestructibleBody& body) {
 }
 
 bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
-  if (other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT) return false;  // presses no elements
+  const int kind = other.getInternalType();
+  // Ghosts press no elements, and soft bodies' nodes do not strike them.
+  if (kind == btCollisionObject::CO_GHOST_OBJECT || kind == btCollisionObject::CO_SOFT_BODY) return false;
   const double least = implOf(body).strikingSpeed;
   const DestructibleBody* elements = upcastElements(&other);
   const double bound = bullet::closingSpeed(body, other, dt).end;
   if (!(bound > least) || !bullet::mayTouch(world, body, other)) return false;
   placeWhole(body);
-  if (elements) return bullet::elementsStrike(*solver, elements->id(), blowMaker.make(body, {}), least, dt);
+  if (elements) return bullet::elementsStrike(*solver, elements->id(), proxyMaker.make(body, {}), least, dt);
   const Eigen::AlignedBox3d reached = reachedBox(body, bound * dt);
-  edem::RigidProxy partner = blowMaker.make(other, std::span(&reached, 1));
+  edem::RigidProxy partner = proxyMaker.make(other, std::span(&reached, 1));
   if (const auto* link = btMultiBodyLinkCollider::upcast(&other)) bullet::take(*link, dt, partner);
   const bullet::RigidMotion own{toEigen(body.getWorldTransform().getOrigin()),
                                 toEigen(body.getLinearVelocity()), toEigen(body.getAngularVelocity()),
@@ -113,7 +116,7 @@ void Destruction::Impl::thawStruck(double dt) {
   std::vector<DestructibleBody*> struck;
   bool anyMet = false;
   for (DestructibleBody* body : wholeBodies) {
-    if (implOf(*body).struck) struck.push_back(body);
+    if (implOf(*body).struck && struck.size() < std::max(1u, def.maxThaws)) struck.push_back(body);
     anyMet = anyMet || implOf(*body).met;
   }
   const auto look = [&](btCollisionObject& object, btCollisionObject& other) {
@@ -169,6 +172,7 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   clearManifolds(*world.getDispatcher(), body);
   // Nor may Bullet's own sweeps of this tick stop anything at it.
   own.flags = body.getCollisionFlags();
+  bullet::limitGyroscopicTerm(body, 0);
   body.setCollisionFlags(own.flags | btCollisionObject::CF_NO_CONTACT_RESPONSE);
   visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
     if (&a != &body && &b != &body) return;
@@ -208,10 +212,13 @@ void Destruction::Impl::placeWholes() {
 }
 
 // The only look at what sleeps in a tick.
-void Destruction::Impl::gatherAwakeWholes() {
+void Destruction::Impl::gatherAwakeWholes(double dt) {
   awakeWholes.clear();
-  for (DestructibleBody* body : wholeBodies)
-    if (body->getActivationState() != ISLAND_SLEEPING) awakeWholes.push_back(body);
+  for (DestructibleBody* body : wholeBodies) {
+    if (body->getActivationState() == ISLAND_SLEEPING) continue;
+    awakeWholes.push_back(body);
+    bullet::limitGyroscopicTerm(*body, dt);
+  }
 }
 
 RUBBLE_ABI_END

@@ -275,7 +275,7 @@ void RigidProxies::refuse(const btCollisionShape& shape) {
   }
   if (m_log)
     m_log(LogLevel::Warning, std::string("shape ") + shape.getName() +
-                                 " does not touch destructible bodies: " +
+                                 " does not touch the elements of destructible bodies: " +
                                  (flat ? "it has no volume (its points lie in a plane, on a line or on one "
                                          "place); give it thickness"
                                        : "it is none of Bullet's convex or concave shapes"));

@@ -318,7 +318,13 @@ void Destruction::Impl::advance(double dt) {
   }
   times.neighbours += solver->report().listing;
   times.edem -= solver->report().listing;
-  if (!solver->failure().empty()) failSolver();
+  substeps = solver->report().substeps;
+  if (!solver->failure().empty()) {
+    failSolver();
+    touched.clear();  // gets none of it
+    proxies.clear();
+    return;
+  }
   followElements();
   poseJoints(dt);
   frozen += solver->report().frozen;
@@ -326,7 +332,6 @@ void Destruction::Impl::advance(double dt) {
              isFirstFrozen = frozen > 0 && frozen == solver->report().frozen;
   if (warns && (!std::exchange(warned, true) || isFirstFrozen))
     def.log(LogLevel::Warning, solver->report().warning);
-  substeps = solver->report().substeps;
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     bullet::TouchedBody& t = touched[p];
     if (!t.rigid) continue;
@@ -388,7 +393,7 @@ void Destruction::Impl::finish(double dt) {
     stepDebris(dt);
     ledgerStale = true;
   }
-  gatherAwakeWholes();
+  gatherAwakeWholes(dt);
   noteLoads(dt);
   freezeCalm(dt);
   closeLedger(dt);

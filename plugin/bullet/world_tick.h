@@ -96,7 +96,6 @@ struct Destruction::Impl {
   std::unique_ptr<debris::DebrisSystem> debrisSystem;  ///< null when debris are switched off
   bullet::ElementAlgorithms algorithms;
   bullet::RigidProxies proxyMaker;
-  bullet::RigidProxies blowMaker{nullptr};  ///< says nothing: what does not touch elements stops whole bodies
   std::unique_ptr<bullet::DebrisSurroundings> surroundings;
   std::vector<DestructibleBody*> bodies;
   std::vector<bullet::TouchedBody> touched;
@@ -212,7 +211,7 @@ struct Destruction::Impl {
   /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
   void beginEasing(DestructibleBody& body);
   void ease(DestructibleBody& body, double dt);
-  void gatherAwakeWholes();
+  void gatherAwakeWholes(double dt);
   bool mayMatter(const DestructibleBody& body, const btCollisionObject& other) const;
   void uncouple(DestructibleBody& body);
   /// Those of whole bodies that nothing has met for long.

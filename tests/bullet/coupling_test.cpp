@@ -141,7 +141,8 @@ TEST(Coupling, AShapeThatCannotTouchIsNamedOnce) {
   w.addWall(material("concrete_soft"));
   for (int i = 0; i < 2; ++i) w.add(0, floor, {0, btScalar(0.01), 0});
   for (int tick = 0; tick < 2; ++tick) w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
-  EXPECT_EQ(warnings.take("shape Convex does not touch destructible bodies: it has no volume"), 1);
+  EXPECT_EQ(
+      warnings.take("shape Convex does not touch the elements of destructible bodies: it has no volume"), 1);
 }
 
 TEST(Coupling, AppStyleTeardownDeletesBodiesFirst) {

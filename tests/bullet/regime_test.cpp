@@ -302,6 +302,45 @@ TEST(Regime, NothingSleepsWhereSleepIsOff) {
   EXPECT_TRUE(block->isWhole());
 }
 
+// Bullet's gyroscopic term is one Newton step over a tick, in which it turns five times.
+TEST(Regime, WhatTurnsManyTimesATickGetsNoEnergyByIt) {
+  BulletWorld w;
+  w.world.setGravity({0, 0, 0});
+  DestructibleBodyDef def = blockDef({2, 6, 10}, {0, 5, 0});
+  def.spin = {300, 2000, 200};
+  const DestructibleBody* plate = w.destruction->addBody(def);
+  const auto energy = [&] { return double(plate->angularMomentum().dot(plate->getAngularVelocity())); };
+  const double begin = energy();
+  for (int tick = 0; tick < 60; ++tick) {
+    w.world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
+    ASSERT_LE(energy(), 1.05 * begin) << tick;
+  }
+  EXPECT_EQ(w.destruction->failure(), "");
+  // Slow again it has the term back, as the application's flags say.
+  const_cast<DestructibleBody*>(plate)->setAngularVelocity({1, 2, 1});
+  w.world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
+  EXPECT_NE(plate->getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY, 0);
+}
+
+// What waits thaws in the next ones.
+TEST(Regime, NoMoreThawInATickThanTheSettingSays) {
+  DestructionDef definition;
+  definition.maxThaws = 2;
+  BulletWorld w(definition);
+  std::vector<DestructibleBody*> blocks;
+  for (int i = 0; i < 5; ++i) {
+    blocks.push_back(w.destruction->addBody(blockDef({2, 2, 2}, {btScalar(i), 0, 0})));
+    w.destruction->strike(blocks.back());
+  }
+  const auto thawed = [&] {
+    return std::count_if(blocks.begin(), blocks.end(), [](const auto* b) { return !b->isWhole(); });
+  };
+  for (const int expected : {2, 4, 5}) {
+    w.world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
+    EXPECT_EQ(thawed(), expected);
+  }
+}
+
 // In any order, and in the tick of a blow too.
 TEST(Regime, WholeBodiesAreRemovedAsOthersAre) {
   BulletWorld w;

@@ -218,7 +218,8 @@ TEST_F(Hulls, TheLibrarySaysWhatIsWrongWithAFlatOne) {
   demo::World world(scene, demo::cookObjects(scene), log());
   world.step();
   EXPECT_EQ(m_warnings,
-            "shape Convex does not touch destructible bodies: it has no volume (its points lie in a plane, "
+            "shape Convex does not touch the elements of destructible bodies: it has no volume (its points "
+            "lie in a plane, "
             "on a line "
             "or on one place); give it thickness\n");
 }

@@ -45,10 +45,13 @@ struct DestructionDef {
   /// anchor holds the heaviest stays.
   std::uint32_t fragmentBodyElements = 0;
   std::uint32_t maxNewBodies = 2;  ///< of those in a tick; the others wait
-  bool sleep = true;               ///< bodies at rest are put to sleep by Bullet's own rules
-  bool breaking = true;            ///< false: springs never break (tests of stability)
-  bool crushing = true;            ///< false: elements never crush
-  std::uint64_t seed = 1;          ///< of the debris sizes
+  /// Whole bodies that loads or strike() hand to their elements in a tick; the others wait, in order of their
+  /// ids. Those that a blow strikes cannot: without elements Bullet would have answered it for good.
+  std::uint32_t maxThaws = 8;
+  bool sleep = true;       ///< bodies at rest are put to sleep by Bullet's own rules
+  bool breaking = true;    ///< false: springs never break (tests of stability)
+  bool crushing = true;    ///< false: elements never crush
+  std::uint64_t seed = 1;  ///< of the debris sizes
   LogFunction log;
 };
 
