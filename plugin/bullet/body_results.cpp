@@ -1,4 +1,5 @@
-// What Bullet's bodies have of a tick: impulses, places, and what holds them when they are at rest.
+// What Bullet's bodies have of a tick once it has moved them: late impulses, places, and what holds them when
+// they are at rest.
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btQuickprof.h>
 #include <LinearMath/btTransformUtil.h>
@@ -31,47 +32,6 @@ btVector3 atMost(const btVector3& reaction, const btVector3& load) {
 }
 
 }  // namespace
-
-// Links of one multibody move each other within the tick.
-void Destruction::Impl::coupleLinks() {
-  for (std::size_t p = 0; p < proxies.size(); ++p)
-    for (std::size_t q = 0; q < proxies.size(); ++q) {
-      if (p == q || !touched[p].link || !touched[q].link) continue;
-      if (!proxies[p].mobility || !proxies[q].mobility) continue;
-      if (touched[p].link->m_multiBody != touched[q].link->m_multiBody) continue;
-      proxies[p].coupled.push_back(
-          {std::uint32_t(q), bullet::mobilityOf(*touched[p].link, *touched[q].link)});
-    }
-}
-
-// Links have theirs at once: Bullet makes its rows for multibodies when all constraints have been set up,
-// from the velocities of then.
-void Destruction::Impl::giveLinks(double dt, std::span<const edem::RigidProxy> start) {
-  for (std::size_t p = 0; p < proxies.size(); ++p) {
-    if (!touched[p].link || !(proxies[p].contactWeight > 0)) continue;
-    bullet::LinkMotion impulse;
-    impulse << proxies[p].impulse, proxies[p].angularImpulse;
-    const auto change = [&](bullet::TouchedBody& t, const bullet::LinkMobility& mobility) {
-      const bullet::LinkMotion by = mobility * impulse;
-      t.deltaVelocity += toBullet(Eigen::Vector3d(by.head<3>()));
-      t.deltaSpin += toBullet(Eigen::Vector3d(by.tail<3>()));
-    };
-    change(touched[p], bullet::mobilityOf(*touched[p].link));
-    for (const edem::RigidProxy::Coupling& other : proxies[p].coupled)
-      change(touched[other.proxy], other.mobility);
-  }
-  for (std::size_t p = 0; p < proxies.size(); ++p) {
-    bullet::TouchedBody& t = touched[p];
-    if (!t.link || !(proxies[p].contactWeight > 0)) continue;
-    const edem::RigidProxy& s = start[p];
-    const btTransform begin(toBullet(s.orientation), toBullet(s.position));
-    btTransformUtil::integrateTransform(
-        begin, toBullet(Eigen::Vector3d(s.velocity + dt * s.acceleration)) + t.deltaVelocity,
-        toBullet(Eigen::Vector3d(s.spin + dt * s.angularAcceleration)) + t.deltaSpin, btScalar(dt),
-        t.freeEnd);
-    bullet::push(*t.link, proxies[p].impulse, proxies[p].angularImpulse);
-  }
-}
 
 // Actions of the application that come first in a tick may have taken bodies out of the world.
 void Destruction::Impl::forgetTaken() {

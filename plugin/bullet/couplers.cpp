@@ -2,9 +2,10 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
-#include <algorithm>
 #include <mutex>
+#include <utility>
 
+#include "bullet/body_impl.h"
 #include "bullet/convert.h"
 #include "bullet/multibody_links.h"
 #include "bullet/world_tick.h"
@@ -107,18 +108,6 @@ void Destruction::Impl::uncoupleIdle() {
     own.inSolver = false;
     if (!std::exchange(own.met, false) && !own.struck && ++own.idleTicks > kIdleTicks) uncouple(*body);
   }
-}
-
-// Lists of bodies by who moves them, in rising order of ids as `bodies`.
-void Destruction::Impl::enlist(DestructibleBody& body) {
-  std::vector<DestructibleBody*>& list = body.isWhole() ? wholeBodies : elementBodies;
-  list.insert(std::ranges::upper_bound(list, body.id(), {}, &DestructibleBody::id), &body);
-}
-
-void Destruction::Impl::delist(DestructibleBody& body) {
-  std::vector<DestructibleBody*>& list = body.isWhole() ? wholeBodies : elementBodies;
-  const auto found = std::ranges::lower_bound(list, body.id(), {}, &DestructibleBody::id);
-  if (found != list.end() && *found == &body) list.erase(found);
 }
 
 RUBBLE_ABI_END
