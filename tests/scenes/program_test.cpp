@@ -298,7 +298,8 @@ TEST_F(Program, NumbersThatRunAwayStopTheRunWithExitCode3AndTheCause) {
                         "spin": [-10000, 10000, 10000],
                         "regime": "elements", "material": {"youngs_modulus": 1, "spring_damping": 0.5}}]})";
   stop(spinning,
-       "object 0 (concrete_soft, 3.6 m tall): the state of its elements is not finite, first that of ");
+       "object 0 (concrete_soft, 3.6 m tall): its elements move or turn faster than light, the fastest of "
+       "them ");
   stop(spinning,
        "of its tick; lower substep_safety, or look for units other than metres, seconds, kilograms; its own");
   stop(spinning, "strength of 2 MPa (tick 0, after 0 s)");
