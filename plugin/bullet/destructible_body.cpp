@@ -14,7 +14,8 @@ DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std:
 }
 
 bool DestructibleBody::checkCollideWithOverride(const btCollisionObject* other) const {
-  const bool may = btRigidBody::checkCollideWithOverride(other);
+  // In its list of whom it ignores it stands itself, and the list in memory that nothing else needs.
+  const bool may = m_objectsWithoutCollisionCheck.size() == 1 || btRigidBody::checkCollideWithOverride(other);
   if (may && m_impl->world) m_impl->world->meet(const_cast<DestructibleBody&>(*this), *other);
   return may;
 }

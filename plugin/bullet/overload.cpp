@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet/body_impl.h"
+#include "bullet/body_states.h"
 #include "bullet/convert.h"
 #include "bullet/load_gauge.h"
 #include "bullet/world_tick.h"
@@ -100,6 +101,7 @@ void Destruction::Impl::noteLoads(double dt) {
   bool any = false;
   for (DestructibleBody* body : awakeWholes) {
     if (!body->isActive() || !isDue(*body, dt)) continue;
+    bullet::limitGyroscopicTerm(*body, dt);
     DestructibleBody::Impl& own = implOf(*body);
     bullet::Pressure pressure = std::exchange(own.pressure, {});
     if (own.held) pressure.gravity = toEigen(world.getGravity());

@@ -212,13 +212,10 @@ void Destruction::Impl::placeWholes() {
 }
 
 // The only look at what sleeps in a tick.
-void Destruction::Impl::gatherAwakeWholes(double dt) {
+void Destruction::Impl::gatherAwakeWholes() {
   awakeWholes.clear();
-  for (DestructibleBody* body : wholeBodies) {
-    if (body->getActivationState() == ISLAND_SLEEPING) continue;
-    awakeWholes.push_back(body);
-    bullet::limitGyroscopicTerm(*body, dt);
-  }
+  for (DestructibleBody* body : wholeBodies)
+    if (body->getActivationState() != ISLAND_SLEEPING) awakeWholes.push_back(body);
 }
 
 RUBBLE_ABI_END

@@ -123,7 +123,7 @@ void Destruction::Impl::finish(double dt) {
     stepDebris(dt);
     ledgerStale = true;
   }
-  gatherAwakeWholes(dt);
+  gatherAwakeWholes();
   noteLoads(dt);
   freezeCalm(dt);
   closeLedger(dt);

@@ -172,7 +172,7 @@ struct Destruction::Impl {
   /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
   void beginEasing(DestructibleBody& body);
   void ease(DestructibleBody& body, double dt);
-  void gatherAwakeWholes(double dt);
+  void gatherAwakeWholes();
   bool mayMatter(const DestructibleBody& body, const btCollisionObject& other) const;
   void uncouple(DestructibleBody& body);
   /// Those of whole bodies that nothing has met for long.
