@@ -167,5 +167,14 @@ void Destruction::Impl::delist(DestructibleBody& body) {
   if (found != list.end() && *found == &body) list.erase(found);
 }
 
+void Destruction::Impl::setState(DestructibleBody& body, DestructibleBody::Impl::State state) {
+  DestructibleBody::Impl& own = implOf(body);
+  delist(body);
+  if (body.isWhole()) coupledWholes -= own.coupled;
+  own.state = state;
+  if (body.isWhole()) coupledWholes += own.coupled;
+  enlist(body);
+}
+
 RUBBLE_ABI_END
 }  // namespace rubble

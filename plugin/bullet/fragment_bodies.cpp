@@ -34,7 +34,8 @@ void takeSettings(DestructibleBody& from, const btVector3& gravity, Destructible
   implOf(to).settings.linearFactor = to.getLinearFactor();
   implOf(to).settings.angularFactor = to.getAngularFactor();
   for (int i = 0; i < from.getNumObjectsWithoutCollision(); ++i)
-    to.setIgnoreCollisionCheck(from.getObjectWithoutCollision(i), true);
+    if (const btCollisionObject* ignored = from.getObjectWithoutCollision(i); ignored != &from)
+      to.setIgnoreCollisionCheck(ignored, true);
 }
 
 }  // namespace

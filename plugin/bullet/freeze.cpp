@@ -61,10 +61,7 @@ void Destruction::Impl::freezeCalm(double dt) {
 void Destruction::Impl::freeze(DestructibleBody& body) {
   DestructibleBody::Impl& own = implOf(body);
   const edem::ParkedMotion motion = *solver->park(own.id);
-  delist(body);
-  own.state = DestructibleBody::Impl::State::Whole;
-  enlist(body);
-  coupledWholes += own.coupled;
+  setState(body, DestructibleBody::Impl::State::Whole);
   own.survivedLoad = std::max(own.survivedLoad, std::exchange(own.thawLoad, 0));
   own.gauge->reset();
   own.isSettled = false;

@@ -111,7 +111,7 @@ bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& othe
 
 // Before Bullet solves the contacts of this tick.
 void Destruction::Impl::thawStruck(double dt) {
-  if (std::exchange(lookedForBlows, true) || coupledWholes == 0) return;
+  if (coupledWholes == 0) return;
   BT_PROFILE("Rubble thaw struck");
   std::vector<DestructibleBody*> struck;
   bool anyMet = false;
@@ -134,6 +134,8 @@ void Destruction::Impl::thawStruck(double dt) {
   if (anyMet) visitPairs(*world.getPairCache(), lookBoth);
   std::sort(struck.begin(), struck.end(),
             [](const DestructibleBody* a, const DestructibleBody* b) { return a->id() < b->id(); });
+  failSpoiled(struck);
+  if (!failure.empty()) return;
   for (DestructibleBody* body : struck) thaw(*body, dt);
   if (anyMet) pushOut.limit(world, dt);
 }
@@ -155,11 +157,8 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
       turn * (toEigen(own.whole.inertia).asDiagonal() * (turn.transpose() * spin)) -
       arm.cross(own.whole.mass * toEigen(velocity));
   energyBalance.beginAnew();
-  delist(body);
-  coupledWholes -= own.coupled;
   solver->unpark(own.id, toEigen(velocity), own.held ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : angular);
-  own.state = DestructibleBody::Impl::State::Thawing;
-  enlist(body);
+  setState(body, DestructibleBody::Impl::State::Thawing);
   couple(body);
   own.shown = {};
   own.shown.frame = own.whole.frame;
@@ -211,7 +210,7 @@ void Destruction::Impl::placeWholes() {
   for (DestructibleBody* body : wholeBodies) placeWhole(*body);
 }
 
-// The only look at what sleeps in a tick.
+// In a tick in which nothing meets whole bodies this is the only look at those that sleep.
 void Destruction::Impl::gatherAwakeWholes() {
   awakeWholes.clear();
   for (DestructibleBody* body : wholeBodies)

@@ -53,9 +53,8 @@ void Destruction::Impl::advance(double dt) {
   takeHostMoves(dt);
   carryAnchored(dt);
   followSleep();
-  failSpoiled(wholeBodies);
-  if (!failure.empty()) return;
   thawStruck(dt);
+  if (!failure.empty()) return;
   if (elementBodies.empty() || !solver->anyAwake()) return;
   advanced = true;
   const base::ScopeTimer timer(times.edem);
@@ -135,13 +134,14 @@ void Destruction::Impl::finish(double dt) {
   uncoupleIdle();
   pushOut.note(world.getSolverInfo(), dt);
   softContacts.close();
-  begun = advanced = lookedForBlows = false;
+  begun = advanced = false;
   ++ticks;
   seconds += dt;
 }
 
 void Destruction::Impl::closeLedger(double dt) {
-  if (!advanced && !std::exchange(ledgerStale, false)) return;
+  // Once more after the last tick of the elements: then no impulse is on its way any more.
+  if (!std::exchange(ledgerStale, advanced) && !advanced) return;
   ledgerBook.close(solver->books(), debrisSystem ? debrisSystem->motion() : debris::Motion{});
   double next = 0;
   for (const edem::RigidProxy& proxy : proxies)

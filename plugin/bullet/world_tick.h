@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet/body_impl.h"
 #include "bullet/debris_surroundings.h"
 #include "bullet/element_algorithm.h"
 #include "bullet/energy_alarm.h"
@@ -80,10 +81,9 @@ struct Destruction::Impl {
   std::vector<DestructibleBody*> wholeBodies, elementBodies;  ///< `bodies` by who moves them
   std::vector<DestructibleBody*> awakeWholes;                 ///< scratch of the tick's end
   bool hasDebris = false;                                     ///< when the last tick ended
-  bool ledgerStale = false;     ///< something has been booked since it was closed
-  int coupledWholes = 0;        ///< whole bodies whose coupler is in the world
-  std::mutex meeting;           ///< for these and the world's constraints, in the narrowphase
-  bool lookedForBlows = false;  ///< in this tick
+  bool ledgerStale = false;  ///< something has been booked since it was closed
+  int coupledWholes = 0;     ///< whole bodies whose coupler is in the world
+  std::mutex meeting;        ///< for these and the world's constraints, in the narrowphase
   std::uint32_t crushed = 0, debrisSpawned = 0, debrisRemoved = 0, frozen = 0;
   debris::DebrisBatch batch;
   std::vector<Eigen::AlignedBox3d> wakeBoxes;
@@ -179,6 +179,8 @@ struct Destruction::Impl {
   void uncoupleIdle();
   void enlist(DestructibleBody& body);
   void delist(DestructibleBody& body);
+  /// Of a body that is listed.
+  void setState(DestructibleBody& body, DestructibleBody::Impl::State state);
   /// Lends bodies that have been calm for long enough to Bullet again.
   void freezeCalm(double dt);
   void freeze(DestructibleBody& body);

@@ -79,6 +79,7 @@ TEST(FragmentBodies, AreBodiesOfBullets) {
     ASSERT_TRUE(part);
     EXPECT_EQ(part->source(), w.bar->id());
     EXPECT_EQ(part->asset(), w.bar->asset());
+    EXPECT_TRUE(part->checkCollideWith(w.bar)) << "it ignores what its parent does, not its parent";
     EXPECT_NEAR(1 / double(part->getInvMass()), part->elementMass(), 1e-4 * part->elementMass());
     std::uint32_t alive = 0;
     btVector3 centre(0, 0, 0);
