@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -36,6 +38,40 @@ void remember(PairList<Real>& list, const PairList<Real>& old) {
     if (before(old.entries[o], list.entries[k])) continue;
     list.entries[k].touching = old.entries[o].touching;
     list.memory[k] = old.memory[o];
+  }
+}
+
+template <class Real>
+void add(PairList<Real>& list, const PairEntry& entry, const ContactMemory<Real>& memory) {
+  list.entries.push_back(entry);
+  list.memory.push_back(memory);
+  if (entry.touching) list.elastic += double(memory.energy);
+}
+
+// A pair of which one element has become `part`'s, behind all other bodies: it comes second.
+template <class Real>
+void addAcross(PairList<Real>& list, PairEntry entry, ContactMemory<Real> memory, const Body<Real>& part,
+               bool firstLeaves) {
+  if (entry.pair != kNoPair) memory.range = part.state.range[entry.pair];
+  entry.pair = kNoPair;
+  if (firstLeaves) {
+    std::swap(entry.first, entry.second);
+    memory.slip = -memory.slip;
+    memory.roll = -memory.roll;
+  }
+  add(list, entry, memory);
+}
+
+template <class Real>
+void sortEntries(PairList<Real>& list) {
+  std::vector<std::size_t> order(list.entries.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::sort(order,
+                    [&](std::size_t k, std::size_t m) { return before(list.entries[k], list.entries[m]); });
+  const PairList<Real> old = list;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    list.entries[k] = old.entries[order[k]];
+    list.memory[k] = old.memory[order[k]];
   }
 }
 
@@ -210,36 +246,41 @@ void PairLists<Real>::removeBody(std::uint32_t place) {
 }
 
 template <class Real>
-bool PairLists<Real>::touchOthers(std::uint32_t place, std::span<const std::uint8_t> which) const {
-  return std::ranges::any_of(m_lists, [&](const PairList<Real>& l) {
-    const bool one = l.first == place, other = l.second == place;
-    return std::ranges::any_of(l.entries, [&](const PairEntry& e) {
-      return e.touching && (one && which[e.first]) != (other && which[e.second]);
-    });
-  });
-}
-
-template <class Real>
-void PairLists<Real>::split(std::uint32_t place, std::span<const std::uint8_t> which, std::uint32_t newPlace,
-                            std::uint32_t id) {
+void PairLists<Real>::split(std::uint32_t place, std::span<const std::uint8_t> which, const Body<Real>& part,
+                            std::uint32_t partPlace) {
   if (place >= m_grids.size()) return;  // it has not been listed
-  PairList<Real>& old = m_lists[place];
-  PairList<Real> part, rest = {old.first, old.second, old.firstId, old.secondId, old.law, {}, {}, {}, 0, 0};
-  part.first = part.second = newPlace;
-  part.firstId = part.secondId = id;
-  part.law = old.law;
-  for (std::size_t k = 0; k < old.entries.size(); ++k) {
-    const bool leaves = which[old.entries[k].first];
-    if (leaves != bool(which[old.entries[k].second])) continue;  // near, without touching
-    PairList<Real>& to = leaves ? part : rest;
-    to.entries.push_back(old.entries[k]);
-    to.memory.push_back(old.memory[k]);
-    if (old.entries[k].touching) to.elastic += double(old.memory[k].energy);
+  PairList<Real> within = {partPlace, partPlace, part.id, part.id, m_lists[place].law, {}, {}, {}, 0, 0};
+  std::vector<PairList<Real>> between;
+  for (PairList<Real>& l : m_lists) {
+    if (l.first != place && l.second != place) continue;
+    PairList<Real> rest = {l.first, l.second, l.firstId, l.secondId, l.law, {}, {}, {}, 0, 0};
+    const bool isFirst = l.first == place;
+    PairList<Real> across = {isFirst ? l.second : l.first,
+                             partPlace,
+                             isFirst ? l.secondId : l.firstId,
+                             part.id,
+                             l.law,
+                             {},
+                             {},
+                             {},
+                             0,
+                             0};
+    for (std::size_t k = 0; k < l.entries.size(); ++k) {
+      const PairEntry& e = l.entries[k];
+      const bool first = isFirst && which[e.first], second = l.second == place && which[e.second];
+      if (first != second)
+        addAcross(across, e, l.memory[k], part, first);
+      else
+        add(first ? within : rest, e, l.memory[k]);
+    }
+    l = std::move(rest);
+    sortEntries(across);
+    between.push_back(std::move(across));
   }
-  old = std::move(rest);
   // Lists within bodies stand first. Of those that have not been listed yet there are none.
-  m_lists.insert(m_lists.begin() + std::ptrdiff_t(m_grids.size()), std::move(part));
-  if (newPlace == m_grids.size()) m_grids.push_back(ElementGrid(m_grids[place]));
+  m_lists.insert(m_lists.begin() + std::ptrdiff_t(m_grids.size()), std::move(within));
+  std::ranges::move(between, std::back_inserter(m_lists));
+  if (partPlace == m_grids.size()) m_grids.push_back(ElementGrid(m_grids[place]));
 }
 
 template <class Real>

@@ -53,11 +53,10 @@ class PairLists {
   /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.
   void removeBody(std::uint32_t place);
 
-  /// Whether elements marked in `which` of the body at `place` touch any that are not.
-  bool touchOthers(std::uint32_t place, std::span<const std::uint8_t> which) const;
-  /// Those have become the body `id` at `newPlace`, behind all others: takes their pairs along.
-  void split(std::uint32_t place, std::span<const std::uint8_t> which, std::uint32_t newPlace,
-             std::uint32_t id);
+  /// Elements marked in `which` of the body at `place` have become `part`, at `partPlace` behind all others:
+  /// takes their pairs along, those that touch what stays or others as well.
+  void split(std::uint32_t place, std::span<const std::uint8_t> which, const Body<Real>& part,
+             std::uint32_t partPlace);
 
   /// Makes all contacts as stiff as `share` of what their bodies ask for, until told otherwise.
   void soften(std::span<const std::unique_ptr<Body<Real>>> bodies, double share);

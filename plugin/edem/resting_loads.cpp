@@ -31,6 +31,23 @@ void RestingLoads::beginTick(const Eigen::Vector3d& gravity) {
   }
 }
 
+void RestingLoads::rename(std::uint64_t from, std::uint64_t to) {
+  for (Node& n : m_nodes)
+    if (n.thing.name == from) n.thing.name = to;
+  for (Pair& p : m_pairs) {
+    const std::uint64_t first = m_nodes[p.first].thing.name, second = m_nodes[p.second].thing.name;
+    const bool areFragments = std::max(first, second) < rigidName(0);
+    if ((first != to && second != to) || !areFragments || first < second) continue;
+    std::swap(p.first, p.second);
+    p.normal = -p.normal;
+  }
+  m_nodeOf.clear();
+  for (std::size_t n = 0; n < m_nodes.size(); ++n) m_nodeOf[m_nodes[n].thing.name] = n;
+  m_pairOf.clear();
+  for (std::size_t p = 0; p < m_pairs.size(); ++p)
+    m_pairOf[{m_nodes[m_pairs[p].first].thing.name, m_nodes[m_pairs[p].second].thing.name}] = p;
+}
+
 std::size_t RestingLoads::nodeOf(const LoadedThing& thing) {
   const auto [at, added] = m_nodeOf.try_emplace(thing.name, m_nodes.size());
   if (added) m_nodes.emplace_back();

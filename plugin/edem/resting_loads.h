@@ -33,7 +33,10 @@ class RestingLoads {
   /// Forgets what no longer touches. Call once a tick.
   void beginTick(const Eigen::Vector3d& gravity);
   const Eigen::Vector3d& gravity() const { return m_gravity; }
-  /// The pair of two things, new or known.
+  /// A thing has another name, which none has had.
+  void rename(std::uint64_t from, std::uint64_t to);
+  /// The pair of two things, new or known. Of two fragments the one of the lesser name is the first; rigid
+  /// bodies come before fragments.
   std::size_t pairOf(const LoadedThing& first, const LoadedThing& second);
   /// Share of the contacts' force of a pair that rests, as of the last substep, 0 to 1.
   double share(std::size_t pair) const { return m_pairs[pair].share; }

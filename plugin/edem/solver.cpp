@@ -65,12 +65,13 @@ class SolverOf final : public Solver {
     Body<Real>& body = *m_world.bodies[place];
     if (!maySplit(body, root)) return std::nullopt;
     const std::vector<std::uint8_t> members = membersOf(body, root);
-    if (m_world.lists.touchOthers(place, members)) return std::nullopt;
     m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, members, m_nextId)));
     m_prestressed.emplace_back();
     m_places.push_back(newPlace);
-    m_world.lists.split(place, members, newPlace, m_nextId);
+    m_world.lists.split(place, members, *m_world.bodies[newPlace], newPlace);
+    m_world.lists.listAwake(m_world.bodies);
     m_world.rigid.split(id, members, m_nextId);
+    m_world.resting.rename(fragmentName(id, root), fragmentName(m_nextId, root));
     m_world.listsStale = true;
     return m_nextId++;
   }

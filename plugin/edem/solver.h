@@ -56,7 +56,7 @@ class Solver {
   virtual void removeBody(std::uint32_t id) = 0;
   /// Makes a body of the fragment whose lowest element is `root`, between ticks: with the same constants, the
   /// same numbers of elements and springs, and what its contacts remember. Returns its id; none for what is
-  /// anchored, sleeps, touches other elements, or is all of the body.
+  /// anchored, sleeps, or is all of the body.
   virtual std::optional<std::uint32_t> split(std::uint32_t id, std::uint32_t root) = 0;
 
   /// Advances all bodies that are awake by `dt` seconds. `proxies` move along and collect what they are
