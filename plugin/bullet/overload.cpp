@@ -48,16 +48,17 @@ bool isSolved(const btPersistentManifold& manifold) {
   return nearest <= manifold.getContactProcessingThreshold();
 }
 
-// Visits (body, manifold, whether the body is the second of it) for whole bodies that are awake.
-template <class Visit>
-void visitWhole(btDispatcher& dispatcher, Visit&& visit) {
+// Visits (body, manifold, whether the body is the second of it) for whole bodies that are awake and of which
+// `isWanted` says so, before a manifold's points are looked at.
+template <class IsWanted, class Visit>
+void visitWhole(btDispatcher& dispatcher, IsWanted&& isWanted, Visit&& visit) {
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
     for (const bool second : {false, true}) {
       const btCollisionObject* object = second ? manifold.getBody1() : manifold.getBody0();
       if (!object->isActive()) continue;
       auto* body = const_cast<DestructibleBody*>(DestructibleBody::upcast(object));
-      if (body && body->isWhole() && isSolved(manifold)) visit(*body, manifold, second);
+      if (body && body->isWhole() && isWanted(*body) && isSolved(manifold)) visit(*body, manifold, second);
     }
   }
 }
@@ -72,25 +73,25 @@ bool Destruction::Impl::isDue(const DestructibleBody& body, double dt) const {
 }
 
 void Destruction::Impl::sumPressures(double dt) {
-  visitWhole(*world.getDispatcher(),
-             [=, this](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
-               if (!isDue(body, dt)) return;
-               const btTransform& place = body.getWorldTransform();
-               for (int p = 0; p < manifold.getNumContacts(); ++p) {
-                 const btManifoldPoint& point = manifold.getContactPoint(p);
-                 const btVector3& at = second ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
-                 implOf(body).pressure.add(double(point.m_appliedImpulse), toEigen(place.invXform(at)));
-               }
-             });
+  visitWhole(
+      *world.getDispatcher(), [=, this](const DestructibleBody& body) { return isDue(body, dt); },
+      [](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
+        const btTransform& place = body.getWorldTransform();
+        for (int p = 0; p < manifold.getNumContacts(); ++p) {
+          const btManifoldPoint& point = manifold.getContactPoint(p);
+          const btVector3& at = second ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
+          implOf(body).pressure.add(double(point.m_appliedImpulse), toEigen(place.invXform(at)));
+        }
+      });
 }
 
 void Destruction::Impl::gatherPatches(double dt) {
-  visitWhole(*world.getDispatcher(),
-             [dt](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
-               if (!implOf(body).isGauged) return;
-               if (auto patch = bullet::contactPatch(manifold, second, loadFrame(body), dt))
-                 implOf(body).patches.push_back(std::move(*patch));
-             });
+  visitWhole(
+      *world.getDispatcher(), [](const DestructibleBody& body) { return implOf(body).isGauged; },
+      [dt](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
+        if (auto patch = bullet::contactPatch(manifold, second, loadFrame(body), dt))
+          implOf(body).patches.push_back(std::move(*patch));
+      });
 }
 
 // Most that is awake lies as it lay, and is looked at no further.

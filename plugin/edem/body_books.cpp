@@ -68,6 +68,14 @@ double elasticOf(const Body<Real>& body) {
 }
 
 template <class Real>
+double massOf(const Body<Real>& body) {
+  double mass = 0;
+  for (std::size_t i = 0; i < body.elementCount(); ++i)
+    mass += body.state.alive[i] ? body.constants->mass[i] : 0;
+  return mass;
+}
+
+template <class Real>
 void pushElement(Body<Real>& body, std::size_t i, const Eigen::Vector3d& linear,
                  const Eigen::Vector3d& angular, Books& books) {
   assert(i < body.elementCount() && linear.allFinite() && angular.allFinite());
@@ -92,6 +100,8 @@ template void bookNew(const Body<float>&, Books&);
 template void bookNew(const Body<double>&, Books&);
 template void bookLeaving(const Body<float>&, double, Books&);
 template void bookLeaving(const Body<double>&, double, Books&);
+template double massOf(const Body<float>&);
+template double massOf(const Body<double>&);
 template double elasticOf(const Body<float>&);
 template double elasticOf(const Body<double>&);
 template void pushElement(Body<float>&, std::size_t, const Eigen::Vector3d&, const Eigen::Vector3d&, Books&);

@@ -18,6 +18,10 @@ void bookLeaving(const Body<Real>& body, double contactElastic, Books& books);
 template <class Real>
 double elasticOf(const Body<Real>& body);
 
+/// Mass of its living elements [kg].
+template <class Real>
+double massOf(const Body<Real>& body);
+
 /// Gives element i an impulse and one of rotation about its centre [N s], [N m s], and books it as the
 /// host's.
 template <class Real>

@@ -66,6 +66,7 @@ struct BodyState {
   // What the host asks for.
   bool asleep = false;         ///< all of it, by its host
   double sleepingElastic = 0;  ///< in its springs and own contacts when it fell asleep [J]
+  double sleepingMass = 0;     ///< of its elements then [kg]
   bool parked = false;         ///< lent to the host, asleep too (parking.h)
   /// Displacements and rotations in which a body that an anchor holds is parked; empty: none [m].
   std::vector<Vec3<Real>> parkedAt;

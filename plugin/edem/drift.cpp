@@ -23,7 +23,6 @@ struct Thing {
 template <class Real>
 Thing thingOf(const Body<Real>& body) {
   Thing thing;
-  if (body.state.parked) return thing;  // the host has a rigid body for it
   thing.box = boundsOf(body);
   const bool held = body.state.anchorsIntact > 0 && !body.state.base.ride.moves();
   thing.moves = !body.state.asleep && body.state.sleepingCount == 0 && !held;

@@ -83,7 +83,7 @@ void PairLists<Real>::grid(const Body<Real>& body, ElementGrid& out) const {
   out.grid.build(out.listed, body.state.alive, 2 * double(body.constants->radius) + m_skin);
   out.bounds.setEmpty();
   for (std::size_t i = 0; i < body.elementCount(); ++i)
-    if (body.state.alive[i] && !body.state.parked) out.bounds.extend(body.state.origin + out.listed[i]);
+    if (body.state.alive[i]) out.bounds.extend(body.state.origin + out.listed[i]);
 }
 
 // The old list of two bodies, or a new one.
@@ -243,6 +243,17 @@ void PairLists<Real>::removeBody(std::uint32_t place) {
     if (l.first > place) --l.first;
     if (l.second > place) --l.second;
   }
+}
+
+template <class Real>
+void PairLists<Real>::insertBody(std::uint32_t place, std::uint32_t id) {
+  if (place >= m_grids.size()) return;  // behind all that have been listed
+  for (PairList<Real>& l : m_lists) {
+    if (l.first >= place) ++l.first;
+    if (l.second >= place) ++l.second;
+  }
+  m_grids.insert(m_grids.begin() + place, ElementGrid{});
+  m_lists.insert(m_lists.begin() + place, {place, place, id, id, {}, {}, {}, {}, 0, 0});
 }
 
 template <class Real>

@@ -52,6 +52,8 @@ class PairLists {
   void addBroken(std::uint32_t body, const PairEntry& entry);
   /// The body at `place` has been taken out of the solver's list: its pairs are forgotten.
   void removeBody(std::uint32_t place);
+  /// One has been put there, which touches nothing yet.
+  void insertBody(std::uint32_t place, std::uint32_t id);
 
   /// Elements marked in `which` of the body at `place` have become `part`, at `partPlace` behind all others:
   /// takes their pairs along, those that touch what stays or others as well.

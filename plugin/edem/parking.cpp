@@ -98,6 +98,7 @@ ParkedMotion park(Body<Real>& body, Books& books) {
   const double elastic = elasticOf(body);
   takeShape(body);
   body.state.sleepingElastic = elasticOf(body);
+  body.state.sleepingMass = massOf(body);
   ParkedMotion out;
   out.place = placeOf(body);
   Motion whole = before;

@@ -329,13 +329,13 @@ void RigidContacts<Real>::integrate(Bodies bodies, double kick, double step, Boo
 }
 
 template <class Real>
-double RigidContacts<Real>::overlapOf(std::size_t place) const {
+double RigidContacts<Real>::overlapOf(std::uint32_t id) const {
   double deepest = 0;
   for (const RigidContact& c : m_lists.contacts())
-    if (c.body == place) deepest = std::max(deepest, c.faces.deepest);
+    if (m_lists.idOf(c) == id) deepest = std::max(deepest, c.faces.deepest);
   for (const RigidState& state : m_states)
     for (const CornerMemory& corner : state.corners.all())
-      if (m_lists.isAt(place, corner.body)) deepest = std::max(deepest, corner.pressed + corner.sunk);
+      if (corner.body == id) deepest = std::max(deepest, corner.pressed + corner.sunk);
   return deepest;
 }
 

@@ -75,8 +75,8 @@ class RigidContacts {
   const ElementRates& proxyRates(std::uint32_t proxy) const { return m_states[proxy].rates; }
   /// Moves the proxies (symplectic Euler) and books what passed between them and the elements.
   void integrate(Bodies bodies, double kick, double step, Books& books);
-  /// Furthest that the cells of a body, by its place, and a rigid body are in each other [m].
-  double overlapOf(std::size_t place) const;
+  /// Furthest that the cells of a body, by its id, and a rigid body are in each other [m].
+  double overlapOf(std::uint32_t id) const;
   /// Energy in the contacts [J].
   double elastic() const { return m_elastic; }
 

@@ -38,8 +38,8 @@ class RigidLists {
   }
   /// Of an element of the body with the id `id` at a proxy; null where it is not listed.
   const RigidContact* find(std::uint32_t proxy, std::uint32_t id, std::uint32_t element) const;
-  /// Whether the body with that id was at that place at the last build.
-  bool isAt(std::size_t place, std::uint32_t id) const { return place < m_ids.size() && m_ids[place] == id; }
+  /// Of the body of its element.
+  std::uint32_t idOf(const RigidContact& contact) const { return m_ids[contact.body]; }
 
   /// Ends all contacts of a body, between two ticks. Returns the energy that was in them [J].
   double end(std::uint32_t id);

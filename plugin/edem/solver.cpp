@@ -37,37 +37,41 @@ class SolverOf final : public Solver {
     if (def.anchored && gravity.squaredNorm() > 0) prestressed = prestress(*body, gravity, &m_restCache);
     beginSubstep(body->state, body->work);
     bookNew(*body, m_world.books);
+    m_bodies.push_back({body.get(), std::move(prestressed)});
     m_world.bodies.push_back(std::move(body));
-    m_prestressed.push_back(std::move(prestressed));
-    m_places.push_back(std::uint32_t(m_world.bodies.size() - 1));
     m_world.listsStale = true;
     return m_nextId++;
   }
 
-  const PrestressResult& prestressed(std::uint32_t id) const override { return m_prestressed[placeOf(id)]; }
+  const PrestressResult& prestressed(std::uint32_t id) const override {
+    require(id);
+    return m_bodies[id].prestressed;
+  }
 
   void removeBody(std::uint32_t id) override {
-    const std::size_t place = placeOf(id);
-    wakeNeighbours(m_world, std::uint32_t(place));
     double contacts = 0;
-    for (const PairList<Real>& l : m_world.lists.lists())
-      if (l.first == place || l.second == place) contacts += l.elastic;
-    bookLeaving(*m_world.bodies[place], contacts, m_world.books);
-    m_world.bodies.erase(m_world.bodies.begin() + std::ptrdiff_t(place));
-    m_prestressed.erase(m_prestressed.begin() + std::ptrdiff_t(place));
-    noteRemoved(id);
-    m_world.lists.removeBody(std::uint32_t(place));
-    m_world.listsStale = true;
+    if (of(id).state.parked) {
+      bookLeaving(of(id), contacts, m_world.books);
+      takeOut(m_world.parked, id);
+      sumParked();
+    } else {
+      const std::uint32_t place = placeOf(id);
+      wakeNeighbours(m_world, place);
+      for (const PairList<Real>& l : m_world.lists.lists())
+        if (l.first == place || l.second == place) contacts += l.elastic;
+      bookLeaving(of(id), contacts, m_world.books);
+      leaveTicks(id);
+    }
+    m_bodies[id] = {};
   }
 
   std::optional<std::uint32_t> split(std::uint32_t id, std::uint32_t root) override {
-    const auto place = std::uint32_t(placeOf(id)), newPlace = std::uint32_t(m_world.bodies.size());
-    Body<Real>& body = *m_world.bodies[place];
+    Body<Real>& body = of(id);
     if (!maySplit(body, root)) return std::nullopt;
+    const std::uint32_t place = placeOf(id), newPlace = std::uint32_t(m_world.bodies.size());
     const std::vector<std::uint8_t> members = membersOf(body, root);
     m_world.bodies.push_back(std::make_unique<Body<Real>>(splitOff(body, members, m_nextId)));
-    m_prestressed.emplace_back();
-    m_places.push_back(newPlace);
+    m_bodies.push_back({m_world.bodies.back().get(), {}});
     m_world.lists.split(place, members, *m_world.bodies[newPlace], newPlace);
     m_world.lists.listAwake(m_world.bodies);
     m_world.rigid.split(id, members, m_nextId);
@@ -86,7 +90,8 @@ class SolverOf final : public Solver {
 
   double stableStep() const override {
     double step = std::numeric_limits<double>::infinity();
-    for (const auto& body : m_world.bodies) step = std::min(step, stableStepOf(*body));
+    for (const Known& known : m_bodies)
+      if (known.body) step = std::min(step, stableStepOf(*known.body));
     return step;
   }
   bool anyAwake() const override {
@@ -122,9 +127,8 @@ class SolverOf final : public Solver {
 
   void push(std::uint32_t id, std::size_t i, const Eigen::Vector3d& linear,
             const Eigen::Vector3d& angular) override {
-    const std::size_t place = placeOf(id);
-    wakeElement(m_world, std::uint32_t(place), std::uint32_t(i));
-    pushElement(*m_world.bodies[place], i, linear, angular, m_world.books);
+    wakeElement(m_world, placeOf(id), std::uint32_t(i));
+    pushElement(of(id), i, linear, angular, m_world.books);
   }
 
   RigidMotion motion(std::uint32_t id, std::uint32_t root) const override {
@@ -135,13 +139,13 @@ class SolverOf final : public Solver {
   }
   void pushAll(std::uint32_t id, std::uint32_t root, const Eigen::Vector3d& velocity,
                const Eigen::Vector3d& spin) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     forgetSleep(body);
     m_world.listsStale = true;
     pushWhole(body, root, velocity, spin, m_world.books);
   }
   void move(std::uint32_t id, const Eigen::Isometry3d& by) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     forgetSleep(body);
     endContactsOf(id);
     moveWhole(body, by, m_world.books);
@@ -149,7 +153,7 @@ class SolverOf final : public Solver {
 
   Frame heldFrame(std::uint32_t id) const override { return of(id).state.frames[0]; }
   void setBase(std::uint32_t id, const Twist& velocity) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     assert(!body.state.parked);
     body.state.base = {};
     body.state.base.given = true;
@@ -158,22 +162,20 @@ class SolverOf final : public Solver {
     writeFarEnds(body);
   }
   bool carry(std::uint32_t id, const Frame& target) override {
-    const std::size_t place = placeOf(id);
-    Body<Real>& body = *m_world.bodies[place];
+    Body<Real>& body = of(id);
     AnchorBase& base = body.state.base;
     assert(base.given);
     base.ride = {};
     const Frame& now = body.state.frames[0];
     if (target.origin == now.origin && target.turn.coeffs() == now.turn.coeffs()) return !base.end.isZero();
     base.target = target;
-    wakeHeld(place);
+    wakeHeld(id);
     return true;
   }
   void ride(std::uint32_t id, std::uint64_t key, const Frame& hold, const Frame& now) override {
-    const std::size_t place = placeOf(id);
-    Body<Real>& body = *m_world.bodies[place];
+    Body<Real>& body = of(id);
     assert(body.state.base.given && key != 0);
-    wakeHeld(place);
+    wakeHeld(id);
     body.state.base.ride = {};
     body.state.base.ride.key = key;
     body.state.base.ride.hold = hold;
@@ -186,12 +188,12 @@ class SolverOf final : public Solver {
   }
 
   void load(std::uint32_t id, std::span<const HostLoad> loads) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     body.state.hostLoads.insert(body.state.hostLoads.end(), loads.begin(), loads.end());
   }
 
   bool setGravity(std::uint32_t id, const std::optional<Eigen::Vector3d>& gravity) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     if (body.state.gravity == gravity) return false;
     body.state.gravity = gravity;
     if (body.state.parked) return true;
@@ -203,67 +205,112 @@ class SolverOf final : public Solver {
 
   void setEasing(std::uint32_t id, double rate) override {
     assert(rate >= 0);
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     body.state.easeDamping = rate;
     body.state.easeBroken = body.state.brokenCount;
   }
 
   void setAsleep(std::uint32_t id, bool asleep) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     if (body.state.asleep == asleep) return;
     body.state.asleep = asleep;
     m_world.listsStale = true;
     // What its fragments lay on may have gone while nobody looked.
     if (!asleep) return forgetSleep(body);
     body.state.sleepingElastic = elasticOf(body);
+    body.state.sleepingMass = massOf(body);
     bookSlept(body, m_world.books);
   }
 
   std::optional<ParkedMotion> park(std::uint32_t id) override {
-    Body<Real>& body = *m_world.bodies[placeOf(id)];
+    Body<Real>& body = of(id);
     if (!mayPark(body)) return std::nullopt;
     forgetSleep(body);
     endContactsOf(id);
-    return edem::park(body, m_world.books);
+    const ParkedMotion motion = edem::park(body, m_world.books);
+    putIn(m_world.parked, leaveTicks(id));
+    sumParked();
+    return motion;
   }
   std::optional<Unrest> unrest(std::uint32_t id) const override {
     if (!mayPark(of(id))) return std::nullopt;
     Unrest unrest = unrestOf(of(id));
-    unrest.overlap = m_world.rigid.overlapOf(placeOf(id));
+    unrest.overlap = m_world.rigid.overlapOf(id);
     return unrest;
   }
-  void place(std::uint32_t id, const Eigen::Isometry3d& place) override {
-    placeParked(*m_world.bodies[placeOf(id)], place);
-  }
+  void place(std::uint32_t id, const Eigen::Isometry3d& place) override { placeParked(of(id), place); }
   void unpark(std::uint32_t id, const Eigen::Vector3d& velocity,
               const Eigen::Vector3d& angularMomentum) override {
-    edem::unpark(*m_world.bodies[placeOf(id)], velocity, angularMomentum, m_world.books);
+    edem::unpark(of(id), velocity, angularMomentum, m_world.books);
+    m_world.lists.insertBody(putIn(m_world.bodies, takeOut(m_world.parked, id)), id);
     m_world.listsStale = true;
+    sumParked();
   }
 
   std::uint64_t hash() const override {
     base::Fnv1a hash;
-    for (const auto& body : m_world.bodies) addTo(hash, *body);
+    for (const Known& known : m_bodies)
+      if (known.body) addTo(hash, *known.body);
     return hash.value();
   }
 
  private:
+  using Bodies = std::vector<std::unique_ptr<Body<Real>>>;
+  struct Known {
+    Body<Real>* body = nullptr;  // null: removed
+    PrestressResult prestressed;
+  };
+
   // What the anchors hold.
-  void wakeHeld(std::size_t place) {
-    const Body<Real>& body = *m_world.bodies[place];
-    if (body.state.asleep) setAsleep(body.id, false);
+  void wakeHeld(std::uint32_t id) {
+    const Body<Real>& body = of(id);
+    const std::uint32_t place = placeOf(id);
+    if (body.state.asleep) setAsleep(id, false);
     for (std::uint32_t i = 0; i < body.elementCount(); ++i)
-      if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, std::uint32_t(place), i);
+      if (body.state.alive[i] && body.state.frameOf[i] == 0) wakeElement(m_world, place, i);
   }
-  std::size_t placeOf(std::uint32_t id) const {
-    if (id >= m_places.size() || m_places[id] == kNoPlace)
+
+  void require(std::uint32_t id) const {
+    if (id >= m_bodies.size() || !m_bodies[id].body)
       throw Error("no destructible body has the id " + std::to_string(id));
-    return m_places[id];
   }
-  void noteRemoved(std::uint32_t id) {
-    const std::uint32_t place = std::exchange(m_places[id], kNoPlace);
-    for (std::uint32_t& p : m_places)
-      if (p != kNoPlace && p > place) --p;
+  const Body<Real>& of(std::uint32_t id) const {
+    require(id);
+    return *m_bodies[id].body;
+  }
+  Body<Real>& of(std::uint32_t id) {
+    require(id);
+    return *m_bodies[id].body;
+  }
+  // Where the body is among those, or would be.
+  static auto at(Bodies& bodies, std::uint32_t id) {
+    return std::ranges::lower_bound(bodies, id, {}, [](const auto& body) { return body->id; });
+  }
+  std::uint32_t placeOf(std::uint32_t id) {
+    assert(!of(id).state.parked);
+    return std::uint32_t(at(m_world.bodies, id) - m_world.bodies.begin());
+  }
+  static std::unique_ptr<Body<Real>> takeOut(Bodies& bodies, std::uint32_t id) {
+    const auto place = at(bodies, id);
+    std::unique_ptr<Body<Real>> body = std::move(*place);
+    bodies.erase(place);
+    return body;
+  }
+  static std::uint32_t putIn(Bodies& bodies, std::unique_ptr<Body<Real>> body) {
+    const auto place = bodies.insert(at(bodies, body->id), std::move(body));
+    return std::uint32_t(place - bodies.begin());
+  }
+  std::unique_ptr<Body<Real>> leaveTicks(std::uint32_t id) {
+    m_world.lists.removeBody(std::uint32_t(at(m_world.bodies, id) - m_world.bodies.begin()));
+    m_world.listsStale = true;
+    return takeOut(m_world.bodies, id);
+  }
+  void sumParked() {
+    m_world.parkedMass = m_world.parkedElastic = 0;
+    for (const auto& body : m_world.parked) {
+      m_world.parkedMass += body->state.sleepingMass;
+      m_world.parkedElastic += body->state.sleepingElastic;
+    }
   }
   // The host takes a body from where it touched.
   void endContactsOf(std::uint32_t id) {
@@ -272,18 +319,13 @@ class SolverOf final : public Solver {
     m_world.books.massDamped += contacts;
     m_world.listsStale = true;
   }
-  const Body<Real>& of(std::uint32_t id) const { return *m_world.bodies[placeOf(id)]; }
-
   double stableStepOf(const Body<Real>& body) const {
     return m_world.def.substepSafety * bodyBound(body).stableStep();
   }
 
-  static constexpr std::uint32_t kNoPlace = 0xffffffffu;
-
   World<Real> m_world;
   std::uint32_t m_nextId = 0;
-  std::vector<std::uint32_t> m_places;         // in the list of bodies, by id; kNoPlace: removed
-  std::vector<PrestressResult> m_prestressed;  // beside the bodies
+  std::vector<Known> m_bodies;  // by id
   StaticRestCache m_restCache;
 };
 

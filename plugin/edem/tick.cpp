@@ -109,7 +109,7 @@ std::string spoiledText(const Body<Real>& body, int substep) {
 template <class Real>
 void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gravity) {
   w.books.closeStep();
-  w.books.elastic = 0;
+  w.books.elastic = w.parkedElastic;
   for (auto& body : w.bodies)
     w.books.elastic += body->state.asleep
                            ? body->state.sleepingElastic
@@ -143,13 +143,13 @@ void substep(World<Real>& w, double kick, double step, const Eigen::Vector3d& gr
   if (w.report.broken.size() > brokenBegin) w.rigid.expose(w.bodies, step, kick, w.resting, w.books);
 
   w.drifts.advance(step);
-  w.books.mass = w.books.kinetic = 0;
+  w.books.mass = w.parkedMass;
+  w.books.kinetic = 0;
   w.books.linear = w.books.angular = Eigen::Vector3d::Zero();
   for (std::uint32_t b = 0; b < w.bodies.size(); ++b) {
     Body<Real>& body = *w.bodies[b];
     if (body.state.asleep) {
-      for (std::size_t i = 0; i < body.elementCount(); ++i)
-        w.books.mass += body.state.alive[i] ? body.constants->mass[i] : 0;
+      w.books.mass += body.state.sleepingMass;
       continue;
     }
     const Eigen::Vector3d fall = body.state.gravity.value_or(gravity);

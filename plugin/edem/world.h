@@ -20,7 +20,10 @@ namespace rubble::edem {
 template <class Real>
 struct World {
   SolverDef def;
-  std::vector<std::unique_ptr<Body<Real>>> bodies;
+  std::vector<std::unique_ptr<Body<Real>>> bodies;  ///< those of the ticks, rising in their ids
+  /// Those that are lent to the host (parking.h), of which no tick knows but what they hold in all [kg], [J].
+  std::vector<std::unique_ptr<Body<Real>>> parked;
+  double parkedMass = 0, parkedElastic = 0;
   PairLists<Real> lists;
   RigidContacts<Real> rigid;
   RestingLoads resting;
