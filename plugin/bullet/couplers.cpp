@@ -1,6 +1,7 @@
 #include "bullet/couplers.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <BulletSoftBody/btSoftBody.h>
 
 #include <mutex>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
 #include "bullet/multibody_links.h"
+#include "bullet/soft_contacts.h"
 #include "bullet/world_tick.h"
 
 namespace rubble::bullet {
@@ -39,6 +41,8 @@ struct Sweep {
       const LinkMotion motion = motionOf(*link);
       velocity = end = toBullet(Eigen::Vector3d(motion.head<3>()));
       turning = bullet::turning(object, toBullet(Eigen::Vector3d(motion.tail<3>())));
+    } else if (const btSoftBody* soft = btSoftBody::upcast(&object)) {
+      turning = fastestNode(*soft);
     }
   }
 };

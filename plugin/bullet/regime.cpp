@@ -2,6 +2,7 @@
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <BulletSoftBody/btSoftBody.h>
 #include <LinearMath/btQuickprof.h>
 
 #include <algorithm>
@@ -92,14 +93,19 @@ void Destruction::Impl::placeWhole(DestructibleBody& body) {
 
 bool Destruction::Impl::isStruck(DestructibleBody& body, btCollisionObject& other, double dt) {
   const int kind = other.getInternalType();
-  // Ghosts press no elements, and soft bodies' nodes do not strike them.
-  if (kind == btCollisionObject::CO_GHOST_OBJECT || kind == btCollisionObject::CO_SOFT_BODY) return false;
+  if (kind == btCollisionObject::CO_GHOST_OBJECT) return false;  // presses no elements
   const double least = implOf(body).strikingSpeed;
   const DestructibleBody* elements = upcastElements(&other);
   const double bound = bullet::closingSpeed(body, other, dt).end;
   if (!(bound > least) || !bullet::mayTouch(world, body, other)) return false;
   placeWhole(body);
   if (elements) return bullet::elementsStrike(*solver, elements->id(), proxyMaker.make(body, {}), least, dt);
+  if (const btSoftBody* soft = btSoftBody::upcast(&other)) {
+    return bullet::pointsStrike(bullet::strikingNodes(*soft, body),
+                                double(soft->getCollisionShape()->getMargin()), proxyMaker.make(body, {}),
+                                implOf(body).whole.mass / double(solver->view(body.id()).elements()), least,
+                                dt);
+  }
   const Eigen::AlignedBox3d reached = reachedBox(body, bound * dt);
   edem::RigidProxy partner = proxyMaker.make(other, std::span(&reached, 1));
   if (const auto* link = btMultiBodyLinkCollider::upcast(&other)) bullet::take(*link, dt, partner);
@@ -169,18 +175,19 @@ void Destruction::Impl::thaw(DestructibleBody& body, double dt) {
   own.shape->refit(own.speed * dt);
   body.activate(true);
   clearManifolds(*world.getDispatcher(), body);
+  visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
+    if (&a != &body && &b != &body) return;
+    btCollisionObject& other = &a == &body ? b : a;
+    if (!other.hasContactResponse() || other.getInternalType() == btCollisionObject::CO_GHOST_OBJECT) return;
+    if (btSoftBody* soft = btSoftBody::upcast(&other))
+      softContacts.takeOver(body, *soft, dt);
+    else
+      own.near.push_back(&other);
+  });
   // Nor may Bullet's own sweeps of this tick stop anything at it.
   own.flags = body.getCollisionFlags();
   bullet::limitGyroscopicTerm(body, 0);
   body.setCollisionFlags(own.flags | btCollisionObject::CF_NO_CONTACT_RESPONSE);
-  visitPairs(*world.getPairCache(), [&](btCollisionObject& a, btCollisionObject& b) {
-    if (&a != &body && &b != &body) return;
-    btCollisionObject& other = &a == &body ? b : a;
-    const int kind = other.getInternalType();
-    const bool isSparing =
-        kind == btCollisionObject::CO_SOFT_BODY || kind == btCollisionObject::CO_GHOST_OBJECT;
-    if (other.hasContactResponse() && !isSparing) own.near.push_back(&other);
-  });
 }
 
 // Algorithms are of the shape that it had. Ghosts have pairs of their own beside the world's.

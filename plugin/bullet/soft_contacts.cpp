@@ -64,7 +64,41 @@ CellSurface surfaceOf(const edem::Solver& solver, std::uint32_t body, std::uint3
   return surface;
 }
 
+// Those of deformable bodies are other kinds.
+bool isOfKind(const btSoftBody& soft) {
+  return (soft.m_cfg.collisions & (btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::CL_RS)) != 0;
+}
+
+bool isSpared(const btSoftBody& soft, const DestructibleBody& own) {
+  const auto& disabled = soft.m_collisionDisabledObjects;
+  return disabled.findLinearSearch(&own) != disabled.size();
+}
+
+// Bullet has added its forces when the narrowphase comes: what lies still is not to have the speed of a fall.
+btVector3 velocityBefore(const btSoftBody& soft, const btSoftBody::Node& node) {
+  return node.m_im > 0 ? node.m_v - soft.m_worldInfo->m_gravity * soft.m_sst.sdt : node.m_v;
+}
+
 }  // namespace
+
+double fastestNode(const btSoftBody& soft) {
+  btScalar fastest2 = 0;
+  for (int n = 0; n < soft.m_nodes.size(); ++n)
+    fastest2 = std::max(fastest2, velocityBefore(soft, soft.m_nodes[n]).length2());
+  return std::sqrt(double(fastest2));
+}
+
+std::vector<StrikingPoint> strikingNodes(const btSoftBody& soft, const DestructibleBody& own) {
+  std::vector<StrikingPoint> points;
+  if (!isOfKind(soft) || isSpared(soft, own)) return points;
+  points.reserve(std::size_t(soft.m_nodes.size()));
+  for (int n = 0; n < soft.m_nodes.size(); ++n) {
+    const btSoftBody::Node& node = soft.m_nodes[n];
+    if (!node.m_battach)
+      points.push_back({toEigen(node.m_q), toEigen(velocityBefore(soft, node)), double(node.m_im)});
+  }
+  return points;
+}
 
 SoftContacts::StandIn::StandIn()
     : rigid(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr, btVector3(0, 0, 0))) {}
@@ -77,15 +111,14 @@ SoftContacts::StandIn& SoftContacts::next() {
 void SoftContacts::meet(DestructibleBody& own, btSoftBody& soft, double dt) {
   deliver(*implOf(own).world->solver, dt);
   if (!soft.isActive() || !soft.hasContactResponse() || !own.hasContactResponse()) return;
-  if ((soft.m_cfg.collisions & (btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::CL_RS)) == 0) {
+  if (!isOfKind(soft)) {
     if (m_log && !std::exchange(m_toldOfKind, true))
       m_log(LogLevel::Warning,
             "a soft body passes through destructible bodies of elements: of its kinds of collisions "
             "(m_cfg.collisions) only SDF_RS and CL_RS meet them, not those of deformable bodies");
     return;
   }
-  if (soft.m_collisionDisabledObjects.findLinearSearch(&own) != soft.m_collisionDisabledObjects.size())
-    return;
+  if (isSpared(soft, own)) return;
   const edem::Solver& solver = *implOf(own).world->solver;
   const double margin = double(soft.getCollisionShape()->getMargin());
   Eigen::AlignedBox3d box = implOf(own).shape->box();
@@ -143,6 +176,16 @@ void SoftContacts::meet(DestructibleBody& own, btSoftBody& soft, double dt) {
     contact.m_c4 = soft.m_cfg.kCHR;
     soft.m_rcontacts.push_back(contact);
   }
+}
+
+void SoftContacts::takeOver(DestructibleBody& own, btSoftBody& soft, double dt) {
+  auto& contacts = soft.m_rcontacts;
+  for (int c = contacts.size() - 1; c >= 0; --c) {
+    if (contacts[c].m_cti.m_colObj != &own) continue;
+    contacts.swap(c, contacts.size() - 1);
+    contacts.pop_back();
+  }
+  meet(own, soft, dt);
 }
 
 void SoftContacts::deliver(edem::Solver& solver, double dt) {

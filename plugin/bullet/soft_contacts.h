@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "bullet/thaw.h"
 #include "edem/solver.h"
 #include "rubble/abi.h"
 #include "rubble/destructible_body.h"
@@ -15,6 +16,11 @@ class btSoftBody;
 
 namespace rubble::bullet {
 RUBBLE_ABI_BEGIN
+
+/// Of a soft body's nodes before Bullet's gravity of this tick [m/s].
+double fastestNode(const btSoftBody& soft);
+/// Its nodes that Bullet would let strike `own`, where they were before they went their way of this tick.
+std::vector<StrikingPoint> strikingNodes(const btSoftBody& soft, const DestructibleBody& own);
 
 /// Bullet solves nodes against rigid bodies, by its own law and after ours. So each node at a cell meets a
 /// stand-in: it moves as the element does, is as heavy as the element's fragment, and what it is given
@@ -26,6 +32,8 @@ class SoftContacts {
   /// Gives the soft body contacts at the cells of a body of elements. In the narrowphase, where Bullet does
   /// the same for rigid bodies.
   void meet(DestructibleBody& own, btSoftBody& soft, double dt);
+  /// The same for one that has become elements since the narrowphase, in place of Bullet's contacts with it.
+  void takeOver(DestructibleBody& own, btSoftBody& soft, double dt);
   /// Before the substeps: presses the elements with what the nodes gave in the last tick, and wakes their
   /// bodies, unless that is done.
   void deliver(edem::Solver& solver, double dt);

@@ -25,6 +25,11 @@ bool reaches(const edem::RigidProxy& proxy, const Eigen::Vector3d& x, const Eige
   return closing > least && s.distance - kReachRadii * radius < kReachWays * closing * dt;
 }
 
+// A light partner's blow is over before sound has crossed an element.
+double leastSpeed(double strikingSpeed, double inverseMass, double elementMass) {
+  return strikingSpeed * std::sqrt(std::max(1.0, 2 * elementMass * inverseMass));
+}
+
 }  // namespace
 
 double strikingSpeed(const Material& material) {
@@ -37,8 +42,7 @@ bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& 
   const double radius = solver.radius(body);
   const RigidMotion other{partner.position, partner.velocity, partner.spin};
   for (std::size_t i = 0; i < view.alive.size(); ++i) {
-    const double light = partner.inverseMass * 2 * view.mass[i];  // over the partner's mass
-    const double least = strikingSpeed * std::sqrt(std::max(1.0, light));
+    const double least = leastSpeed(strikingSpeed, partner.inverseMass, view.mass[i]);
     const Eigen::Vector3d x = solver.position(body, i);
     if (reaches(partner, x, own.at(x) - other.at(x), own.acceleration - partner.acceleration, radius, least,
                 dt))
@@ -60,6 +64,15 @@ bool elementsStrike(const edem::Solver& solver, std::uint32_t striking, const ed
       return true;
   }
   return false;
+}
+
+bool pointsStrike(std::span<const StrikingPoint> points, double margin, const edem::RigidProxy& own,
+                  double elementMass, double strikingSpeed, double dt) {
+  const RigidMotion motion{own.position, own.velocity, own.spin};
+  return std::ranges::any_of(points, [&](const StrikingPoint& p) {
+    const double least = leastSpeed(strikingSpeed, p.inverseMass, elementMass);
+    return reaches(own, p.at, p.velocity - motion.at(p.at), Eigen::Vector3d::Zero(), margin, least, dt);
+  });
 }
 
 RUBBLE_ABI_END

@@ -1,6 +1,8 @@
 // When a body that Bullet moves as a whole must become elements: the rule, on numbers.
 #pragma once
 
+#include <span>
+
 #include "edem/rigid_proxy.h"
 #include "edem/solver.h"
 #include "rubble/abi.h"
@@ -22,14 +24,24 @@ struct RigidMotion {
 double strikingSpeed(const Material& material);
 
 /// Whether something at `partner`'s surface strikes one of the elements within `dt` hard enough, forces on
-/// the way there included. A light
-/// partner gives less: what it does is over before sound has crossed an element.
+/// the way there included. A light partner gives less: what it does is over before sound has crossed an
+/// element.
 bool strikes(const edem::Solver& solver, std::uint32_t body, const RigidMotion& own,
              const edem::RigidProxy& partner, double strikingSpeed, double dt);
 
 /// The same for elements of another body that strike the rigid body `own`.
 bool elementsStrike(const edem::Solver& solver, std::uint32_t striking, const edem::RigidProxy& own,
                     double strikingSpeed, double dt);
+
+/// A point of something soft.
+struct StrikingPoint {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();  ///< [m], [m/s]
+  double inverseMass = 0;                                                            ///< [1/kg]
+};
+
+/// The same for points of a soft body with this margin; an element of the rigid body weighs `elementMass`.
+bool pointsStrike(std::span<const StrikingPoint> points, double margin, const edem::RigidProxy& own,
+                  double elementMass, double strikingSpeed, double dt);
 
 RUBBLE_ABI_END
 }  // namespace rubble::bullet
