@@ -93,9 +93,6 @@ inline Destruction::Impl& implOf(Destruction& destruction) {
   return ImplAccess::of(destruction);
 }
 
-/// Marks our bodies for upcast, beside the collision type btRigidBody sets.
-inline constexpr int kDestructibleMark = 0x52554242;  // "RUBB"
-
 /// Downcast of a body that its elements move; null for whole ones and other objects.
 inline const DestructibleBody* upcastElements(const btCollisionObject* object) {
   const DestructibleBody* body = DestructibleBody::upcast(object);

@@ -1,15 +1,61 @@
 #include "rubble/destructible_body.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <typeinfo>
+
 #include "bullet/body_impl.h"
 #include "bullet/convert.h"
 #include "bullet/world_tick.h"
+#include "edem/cell_faces.h"
 
 namespace rubble {
 RUBBLE_ABI_BEGIN
+namespace {
+
+// What has hit a cell is no further from its centre than this, in the cell's reach.
+constexpr double kNear = 1.5;
+
+// From the asset's frame to the world's, of a whole body whose elements are where the asset has them. The
+// solver's are placed when it needs them; nothing is written here, so that threads may ask at once.
+std::optional<Eigen::Isometry3d> placeOfWhole(const DestructibleBody& body) {
+  const DestructibleBody::Impl& own = implOf(body);
+  if (!body.isWhole() || own.held) return std::nullopt;
+  const Eigen::Isometry3d place = bullet::toEigen(body.getWorldTransform()) * own.whole.frame.inverse();
+  if (!place.matrix().allFinite()) return std::nullopt;
+  return place;
+}
+
+// How far a place, about the centre and in the asset's axes, is out of a cell, by all faces that it is out of
+// [m]: Bullet's rays end up to 1 cm before a shape. Less than 0 within.
+double outOf(const edem::CellFaces& cells, std::uint32_t element, const Eigen::Vector3d& place) {
+  double out2 = 0, furthest = -std::numeric_limits<double>::infinity();
+  for (const edem::CellFaces::Face& face : cells.of(element)) {
+    Eigen::Vector3d area = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+    double sizes = 0;
+    for (std::uint32_t t = 0; t < face.triangleCount; ++t) {
+      const auto& corners = cells.triangles[face.firstTriangle + t];
+      const Eigen::Vector3d &a = cells.vertices[corners[0]], &b = cells.vertices[corners[1]],
+                            &c = cells.vertices[corners[2]];
+      const Eigen::Vector3d twice = (b - a).cross(c - a);
+      area += twice;
+      moment += twice.norm() / 3 * (a + b + c);
+      sizes += twice.norm();
+    }
+    if (!(sizes > 0)) continue;
+    const double out = area.normalized().dot(place - moment / sizes);
+    out2 += std::max(0.0, out) * std::max(0.0, out);
+    furthest = std::max(furthest, out);
+  }
+  return furthest > 0 ? std::sqrt(out2) : furthest;
+}
+
+}  // namespace
 
 DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl)
     : btRigidBody(info), m_impl(std::move(impl)) {
-  setUserIndex3(kDestructibleMark);
   setIgnoreCollisionCheck(this, true);  // while there is one that it ignores, Bullet asks it
 }
 
@@ -25,8 +71,9 @@ DestructibleBody::~DestructibleBody() {
 }
 
 const DestructibleBody* DestructibleBody::upcast(const btCollisionObject* object) {
-  const bool ours = btRigidBody::upcast(object) && object->getUserIndex3() == kDestructibleMark;
-  return ours ? static_cast<const DestructibleBody*>(object) : nullptr;
+  // By its class, which nothing derives from: Bullet's marks, its user indices, are the application's.
+  if (!object || typeid(*object) != typeid(DestructibleBody)) return nullptr;
+  return static_cast<const DestructibleBody*>(object);
 }
 DestructibleBody* DestructibleBody::upcast(btCollisionObject* object) {
   return const_cast<DestructibleBody*>(upcast(static_cast<const btCollisionObject*>(object)));
@@ -51,13 +98,11 @@ const Model& DestructibleBody::model() const {
 void DestructibleBody::poses(std::span<ElementPose> out) const {
   const edem::Solver& solver = *m_impl->world->solver;
   const edem::BodyView view = solver.view(m_impl->id);
-  // The solver's are placed when it needs them; nothing is written here, so that threads may ask at once.
-  const Eigen::Isometry3d place = bullet::toEigen(getWorldTransform()) * m_impl->whole.frame.inverse();
-  if (isWhole() && !m_impl->held && place.matrix().allFinite()) {
-    const Eigen::Vector4f turn = Eigen::Quaterniond(place.linear()).normalized().coeffs().cast<float>();
+  if (const auto place = placeOfWhole(*this)) {
+    const Eigen::Vector4f turn = Eigen::Quaterniond(place->linear()).normalized().coeffs().cast<float>();
     const std::vector<Eigen::Vector3d>& positions = m_impl->asset->positions;
     for (std::size_t i = 0; i < out.size() && i < positions.size(); ++i)
-      out[i] = {(place * positions[i]).cast<float>(), 1.0f, turn};
+      out[i] = {(*place * positions[i]).cast<float>(), 1.0f, turn};
     return;
   }
   for (std::size_t i = 0; i < out.size() && i < view.alive.size(); ++i) {
@@ -65,6 +110,29 @@ void DestructibleBody::poses(std::span<ElementPose> out) const {
     out[i].alive = view.alive[i] ? 1.0f : 0.0f;
     out[i].rotation = solver.orientation(m_impl->id, i).coeffs().cast<float>();
   }
+}
+
+std::uint32_t DestructibleBody::elementAt(const btVector3& place) const {
+  const edem::Solver& solver = *m_impl->world->solver;
+  const std::uint32_t id = m_impl->id;
+  const edem::BodyView view = solver.view(id);
+  const edem::CellFaces* cells = solver.cells(id);
+  const auto whole = placeOfWhole(*this);
+  const Eigen::Vector3d at = whole ? whole->inverse() * bullet::toEigen(place) : bullet::toEigen(place);
+  std::uint32_t nearest = kNoElement;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < view.alive.size(); ++i) {
+    if (!view.alive[i]) continue;
+    const Eigen::Vector3d to = at - (whole ? m_impl->asset->positions[i] : solver.position(id, i));
+    const double toCentre = to.norm();
+    double out = toCentre;
+    if (cells && toCentre < kNear * cells->reach[i])
+      out = whole ? outOf(*cells, i, to) : outOf(*cells, i, solver.orientation(id, i).conjugate() * to);
+    if (!(out < least)) continue;
+    least = out;
+    nearest = i;
+  }
+  return nearest;
 }
 
 std::span<const std::uint8_t> DestructibleBody::springsIntact() const {

@@ -74,7 +74,7 @@ void Destruction::Impl::splitBodies() {
 
 void Destruction::Impl::splitBody(DestructibleBody& body, std::uint32_t root) {
   const std::optional<std::uint32_t> id = solver->split(body.id(), root);
-  if (!id) return;  // it touches others
+  if (!id) return;
   const DestructibleBody::Impl& from = implOf(body);
   auto impl = std::make_unique<DestructibleBody::Impl>();
   impl->id = *id;

@@ -80,6 +80,36 @@ TEST(DefaultBody, ABlockOnTheGroundIsWholeUntilABallBreaksIt) {
 }
 
 // What an application asks for by name.
+// Bullet has one user pointer and three user indices, and they are not ours.
+TEST(DefaultBody, ItsUserPointerAndIndicesAreTheApplications) {
+  BulletWorld w;
+  DestructibleBody* body = w.destruction->addBody(blockDef({4, 4, 4}, {0, 1, 0}));
+  w.world.setGravity({0, 0, 0});
+  int marked = 0;
+  body->setUserPointer(&marked);
+  body->setUserIndex(11);
+  body->setUserIndex2(12);
+  body->setUserIndex3(13);
+  const auto expectMarks = [&] {
+    EXPECT_EQ(body->getUserPointer(), &marked);
+    EXPECT_EQ(body->getUserIndex(), 11);
+    EXPECT_EQ(body->getUserIndex2(), 12);
+    EXPECT_EQ(body->getUserIndex3(), 13);
+    EXPECT_EQ(DestructibleBody::upcast(static_cast<btCollisionObject*>(body)), body);
+  };
+  EXPECT_TRUE(body->isWhole());
+  btRigidBody* ball = w.add(5, w.ballShape, {btScalar(0.1), btScalar(1.5), btScalar(0.1)});
+  ball->setUserIndex3(13);
+  EXPECT_EQ(DestructibleBody::upcast(static_cast<btCollisionObject*>(ball)), nullptr);
+  ball->setLinearVelocity({0, -8, 0});
+  for (int t = 0; t < 24; ++t) {
+    w.world.stepSimulation(btScalar(1) / 240, 1, btScalar(1) / 240);
+    expectMarks();
+  }
+  EXPECT_FALSE(body->isWhole());
+  EXPECT_GT(w.destruction->counts().springsBroken, 0u);
+}
+
 TEST(DefaultBody, IsElementsFromTheStartWhereTheApplicationSaysSo) {
   BulletWorld w;
   DestructibleBodyDef def = plainDef(smallWall());

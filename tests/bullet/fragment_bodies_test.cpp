@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "bullet/bullet_world.h"
@@ -101,6 +102,22 @@ TEST(FragmentBodies, AreBodiesOfBullets) {
     for (int h = 0; h < ray.m_collisionObjects.size(); ++h) isHit |= ray.m_collisionObjects[h] == part;
     EXPECT_TRUE(isHit);
   }
+}
+
+// The bar lies on the ground, and its pieces against each other.
+TEST(FragmentBodies, TouchOneAnother) {
+  StruckBar w(4, 2, 0);
+  w.step(30);
+  ASSERT_GT(w.splits.size(), 0u);
+  for (const DestructibleBody* body : w.destruction->bodies()) {
+    std::map<std::uint32_t, int> elements;
+    for (const std::uint32_t root : body->fragments())
+      if (root != kNoElement) ++elements[root];
+    EXPECT_EQ(std::ranges::count_if(elements, [](const auto& f) { return f.second >= 4; }), 1) << body->id();
+  }
+  EXPECT_EQ(w.destruction->failure(), "");
+  EXPECT_LT(std::abs(w.destruction->ledger().energyError), 1e-3);
+  EXPECT_LT(w.destruction->ledger().momentumError(), 1e-5);
 }
 
 TEST(FragmentBodies, NoMoreInATickThanAllowed) {

@@ -141,6 +141,32 @@ TEST_P(QueryWall, EveryRayHitsTheFace) {
   EXPECT_EQ(hits, 2000);
 }
 
+// Of a whole body Bullet knows no index: the body tells it of the place. The same ray in another state.
+TEST_P(QueryWall, TellsWhichElementWasHitInEitherState) {
+  def.transform.setRotation(btQuaternion({0, 1, 0}, btScalar(0.5)));
+  for (const Regime regime : {Regime::Elements, Regime::RigidUntilStruck}) {
+    def.regime = regime;
+    addAndStep(1);
+    ASSERT_EQ(wall->isWhole(), regime == Regime::RigidUntilStruck);
+    for (int i = 0; i < 200; ++i) {
+      const btVector3 at = place(1);
+      const btVector3 from = def.transform * at, to = def.transform * btVector3(at.x(), at.y(), -1);
+      ElementRay hit(from, to);
+      w.world.rayTest(from, to, hit);
+      ASSERT_EQ(hit.m_collisionObject, wall);
+      // Bullet's rays end before a box, by up to 1 cm.
+      const btVector3 point = def.transform.inverse() * hit.m_hitPointWorld;
+      ASSERT_NEAR(double(point.z()), GetParam().thickness / 2, wall->isWhole() ? 0.01 : 1e-5);
+      const std::uint32_t element = wall->elementAt(hit.m_hitPointWorld);
+      ASSERT_LT(element, def.asset->elementCount());
+      const Eigen::Vector3d onFace(double(point.x()), double(point.y()), GetParam().thickness / 2);
+      // 1 cm before it the next cell is as near within sqrt(2 x 1 cm x the rounding of a place, 1 um).
+      ASSERT_LT(outsideOf(*def.asset, element, onFace), wall->isWhole() ? 1.5e-4 : 1e-5);
+    }
+    w.destruction->removeBody(wall);
+  }
+}
+
 // Sweeps stop 0.1 mm before the surface.
 TEST_P(QueryWall, EverySmallBallStopsAtTheFace) {
   addAndStep(1);

@@ -19,7 +19,7 @@ RUBBLE_ABI_BEGIN
 /// anchors too. Joints hold it: once in several pieces Bullet sees the heaviest that a joint holds in place
 /// of all. While it is whole, as the default is until it is struck, it is a rigid body as any other. Either
 /// way poses() tells where the elements are. Made by Destruction::addBody only.
-class DestructibleBody : public btRigidBody {
+class DestructibleBody final : public btRigidBody {
  public:
   ~DestructibleBody() override;
 
@@ -37,6 +37,10 @@ class DestructibleBody : public btRigidBody {
   const Model& model() const;
   /// Poses of all elements (n), for drawing.
   void poses(std::span<ElementPose> out) const;
+  /// The living element whose cell has a place in the world, or is nearest to it: what a ray, a sweep or a
+  /// contact has hit of a whole body, of which Bullet's callbacks tell no index. Looks at all elements.
+  /// kNoElement: none is alive.
+  std::uint32_t elementAt(const btVector3& place) const;
   /// 1 for unbroken (springs, then anchors).
   std::span<const std::uint8_t> springsIntact() const;
   std::span<const std::uint8_t> elementsAlive() const;

@@ -40,9 +40,9 @@ struct DestructionDef {
   std::uint32_t maxDebris = 100000;  ///< budget of live pieces; beyond it the oldest resting one is removed
   std::uint32_t maxEvents = 1u << 20;
   /// A fragment of at least this many elements becomes a body of its own (Events::bodiesSplit) once it is
-  /// free, awake and touches no other elements; 0: none does. Each body has arrays of all elements of its
-  /// asset, so it has at least 1/64 of them, too. What joints hold keeps its fragments, and of a body that no
-  /// anchor holds the heaviest stays.
+  /// free and awake; 0: none does. Each body has arrays of all elements of its asset, so it has at least 1/64
+  /// of them, too. What joints hold keeps its fragments, and of a body that no anchor holds the heaviest
+  /// stays.
   std::uint32_t fragmentBodyElements = 0;
   std::uint32_t maxNewBodies = 2;  ///< of those in a tick; the others wait
   /// Whole bodies that loads or strike() hand to their elements in a tick; the others wait, in order of their
