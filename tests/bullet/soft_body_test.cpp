@@ -142,8 +142,8 @@ TEST_P(SoftBody, ABallLiesOnASlab) {
   EXPECT_NEAR(double(own.second), double(box.second), 0.015);
 }
 
-// Without weight, beside what a whole block gets, which nothing strikes hard enough to be elements: Bullet's own
-// solver of soft bodies keeps no momentum itself (of 2 kg m/s the two have 2.7 afterwards).
+// Without weight, beside what a whole block gets, which nothing strikes hard enough to be elements: Bullet's
+// own solver of soft bodies keeps no momentum itself (of 2 kg m/s the two have 2.7 afterwards).
 TEST(SoftBlow, GivesElementsWhatItGivesARigidBody) {
   const auto given = [](Under under) {
     SoftWorld w(0);
