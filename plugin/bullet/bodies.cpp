@@ -159,12 +159,14 @@ void Destruction::Impl::wakeTouching(const DestructibleBody& body) {
 void Destruction::Impl::enlist(DestructibleBody& body) {
   std::vector<DestructibleBody*>& list = body.isWhole() ? wholeBodies : elementBodies;
   list.insert(std::ranges::upper_bound(list, body.id(), {}, &DestructibleBody::id), &body);
+  if (body.isWhole()) unsettledWholes.push_back(&body);
 }
 
 void Destruction::Impl::delist(DestructibleBody& body) {
   std::vector<DestructibleBody*>& list = body.isWhole() ? wholeBodies : elementBodies;
   const auto found = std::ranges::lower_bound(list, body.id(), {}, &DestructibleBody::id);
   if (found != list.end() && *found == &body) list.erase(found);
+  std::erase(unsettledWholes, &body);
 }
 
 void Destruction::Impl::setState(DestructibleBody& body, DestructibleBody::Impl::State state) {

@@ -1,6 +1,7 @@
 // What stands behind a DestructibleBody.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct DestructibleBody::Impl {
     Whole,    // Bullet's
     Thawing,  // the elements', from within a tick of Bullet's; Bullet's part follows at its end
   };
+  static void* operator new(std::size_t size);
+  static void operator delete(void* memory, std::size_t size);
+
   // What each tick looks at of a whole body stands first, in one line of the cache.
   State state = State::Elements;
   std::uint32_t id = 0;
@@ -35,8 +39,8 @@ struct DestructibleBody::Impl {
   bool met = false;                    ///< while whole: in this tick, by what may strike it
   bool struck = false;                 ///< while whole: by the application, or overloaded
   bool held = false;                   ///< by anchors
-  bool isSettled = false;              ///< its load, when that was last looked at
   int gyroscopicFlags = 0;             ///< Bullet's, taken from it while it turns too fast for its ticks
+  bool isLooked = false;               ///< this tick's end looks at its load
   bool isGauged = false;               ///< in this tick
   std::unique_ptr<bullet::LoadGauge> gauge;   ///< of a body that may be whole
   bullet::WholeShape whole;                   ///< without a shape while the body is not to be whole

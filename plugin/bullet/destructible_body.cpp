@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <typeinfo>
 
@@ -52,7 +53,28 @@ double outOf(const edem::CellFaces& cells, std::uint32_t element, const Eigen::V
   return furthest > 0 ? std::sqrt(out2) : furthest;
 }
 
+// Elsewhere a page each would be read in every tick: bodies are made between large arrays. Never ends, for
+// worlds may outlive what is static.
+std::pmr::memory_resource& bodyMemory() {
+  static auto* const pool = new std::pmr::synchronized_pool_resource({0, 4096});
+  return *pool;
+}
+constexpr std::size_t kCacheLine = 64;
+
 }  // namespace
+
+void* DestructibleBody::operator new(std::size_t size) {
+  return bodyMemory().allocate(size, kCacheLine);
+}
+void DestructibleBody::operator delete(void* memory, std::size_t size) {
+  bodyMemory().deallocate(memory, size, kCacheLine);
+}
+void* DestructibleBody::Impl::operator new(std::size_t size) {
+  return bodyMemory().allocate(size, kCacheLine);
+}
+void DestructibleBody::Impl::operator delete(void* memory, std::size_t size) {
+  bodyMemory().deallocate(memory, size, kCacheLine);
+}
 
 DestructibleBody::DestructibleBody(const btRigidBodyConstructionInfo& info, std::unique_ptr<Impl> impl)
     : btRigidBody(info), m_impl(std::move(impl)) {

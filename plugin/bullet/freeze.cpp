@@ -64,7 +64,6 @@ void Destruction::Impl::freeze(DestructibleBody& body) {
   setState(body, DestructibleBody::Impl::State::Whole);
   own.survivedLoad = std::max(own.survivedLoad, std::exchange(own.thawLoad, 0));
   own.gauge->reset();
-  own.isSettled = false;
   const Eigen::Isometry3d at = motion.place * own.whole.frame;
   bullet::beRigid(body, toBullet(at));
   bullet::restore(body, own.settings, world.getGravity());

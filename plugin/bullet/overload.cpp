@@ -2,6 +2,7 @@
 #include <LinearMath/btQuickprof.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bullet/body_impl.h"
@@ -65,16 +66,18 @@ void visitWhole(btDispatcher& dispatcher, IsWanted&& isWanted, Visit&& visit) {
 
 }  // namespace
 
-// By turns, for a look goes through memory that nothing else needs.
-bool Destruction::Impl::isDue(const DestructibleBody& body, double dt) const {
-  const DestructibleBody::Impl& own = implOf(body);
-  const auto turns = std::uint64_t(std::max(1.0, kLookTime / dt));
-  return !own.isSettled || (ticks + own.id) % turns == 0;
+// All that is awake by turns, for a look goes through memory that nothing else needs; in the ticks between
+// them only what does not lie as it lay.
+void Destruction::Impl::gatherLooked(double dt) {
+  const auto turn = dt > 0 ? std::uint64_t(std::max(1L, std::lround(kLookTime / dt))) : 1;
+  lookedWholes.clear();
+  for (DestructibleBody* body : ticks % turn == 0 ? wholeBodies : unsettledWholes)
+    if (body->getActivationState() != ISLAND_SLEEPING) lookedWholes.push_back(body);
 }
 
-void Destruction::Impl::sumPressures(double dt) {
+void Destruction::Impl::sumPressures() {
   visitWhole(
-      *world.getDispatcher(), [=, this](const DestructibleBody& body) { return isDue(body, dt); },
+      *world.getDispatcher(), [](const DestructibleBody& body) { return implOf(body).isLooked; },
       [](DestructibleBody& body, btPersistentManifold& manifold, bool second) {
         const btTransform& place = body.getWorldTransform();
         for (int p = 0; p < manifold.getNumContacts(); ++p) {
@@ -96,25 +99,25 @@ void Destruction::Impl::gatherPatches(double dt) {
 
 // Most that is awake lies as it lay, and is looked at no further.
 void Destruction::Impl::noteLoads(double dt) {
-  if (awakeWholes.empty() || !(dt > 0)) return;
+  if (lookedWholes.empty() || !(dt > 0)) return;
   BT_PROFILE("Rubble note loads");
-  sumPressures(dt);
-  bool any = false;
-  for (DestructibleBody* body : awakeWholes) {
-    if (!body->isActive() || !isDue(*body, dt)) continue;
-    bullet::limitGyroscopicTerm(*body, dt);
+  for (DestructibleBody* body : lookedWholes) implOf(*body).isLooked = body->isActive();
+  sumPressures();
+  unsettledWholes.clear();
+  for (DestructibleBody* body : lookedWholes) {
     DestructibleBody::Impl& own = implOf(*body);
+    if (!std::exchange(own.isLooked, false)) continue;
+    bullet::limitGyroscopicTerm(*body, dt);
     bullet::Pressure pressure = std::exchange(own.pressure, {});
     if (own.held) pressure.gravity = toEigen(world.getGravity());
-    own.isSettled = own.gauge->isSettled(pressure, double(body->getAngularVelocity().length()), dt);
-    own.isGauged = !own.isSettled;
-    any = any || own.isGauged;
+    own.isGauged = !own.gauge->isSettled(pressure, double(body->getAngularVelocity().length()), dt);
+    if (own.isGauged) unsettledWholes.push_back(body);
   }
-  if (!any) return;
+  if (unsettledWholes.empty()) return;
   gatherPatches(dt);
-  for (DestructibleBody* body : awakeWholes) {
+  for (DestructibleBody* body : unsettledWholes) {
     DestructibleBody::Impl& own = implOf(*body);
-    if (!std::exchange(own.isGauged, false)) continue;
+    own.isGauged = false;
     if (own.patches.empty() && !own.held && own.gauge->share() < kForgotten) {
       own.gauge->reset();
       continue;

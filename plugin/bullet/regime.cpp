@@ -217,12 +217,5 @@ void Destruction::Impl::placeWholes() {
   for (DestructibleBody* body : wholeBodies) placeWhole(*body);
 }
 
-// In a tick in which nothing meets whole bodies this is the only look at those that sleep.
-void Destruction::Impl::gatherAwakeWholes() {
-  awakeWholes.clear();
-  for (DestructibleBody* body : wholeBodies)
-    if (body->getActivationState() != ISLAND_SLEEPING) awakeWholes.push_back(body);
-}
-
 RUBBLE_ABI_END
 }  // namespace rubble

@@ -122,13 +122,13 @@ void Destruction::Impl::finish(double dt) {
     stepDebris(dt);
     ledgerStale = true;
   }
-  gatherAwakeWholes();
+  gatherLooked(dt);
   noteLoads(dt);
   freezeCalm(dt);
   closeLedger(dt);
   finishThaws();
   showElements();
-  failSpoiled(awakeWholes);
+  failSpoiled(lookedWholes);
   updateSleep(dt);
   for (DestructibleBody* body : elementBodies) implOf(*body).inSolver = false;
   uncoupleIdle();

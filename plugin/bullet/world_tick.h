@@ -79,7 +79,8 @@ struct Destruction::Impl {
   double seconds = 0;
   bullet::WholeShapes wholeShapes;
   std::vector<DestructibleBody*> wholeBodies, elementBodies;  ///< `bodies` by who moves them
-  std::vector<DestructibleBody*> awakeWholes;                 ///< scratch of the tick's end
+  std::vector<DestructibleBody*> unsettledWholes;             ///< whose loads each tick looks at
+  std::vector<DestructibleBody*> lookedWholes;                ///< scratch of the tick's end
   bool hasDebris = false;                                     ///< when the last tick ended
   bool ledgerStale = false;  ///< something has been booked since it was closed
   int coupledWholes = 0;     ///< whole bodies whose coupler is in the world
@@ -165,14 +166,14 @@ struct Destruction::Impl {
   void thaw(DestructibleBody& body, double dt);
   /// Looks at the loads that rest on whole bodies; those that may break them thaw in the next tick.
   void noteLoads(double dt);
-  bool isDue(const DestructibleBody& body, double dt) const;
-  void sumPressures(double dt);
+  /// Which whole bodies the tick's end looks at.
+  void gatherLooked(double dt);
+  void sumPressures();
   void gatherPatches(double dt);
   void finishThaws();
   /// Of a body that has thawed under a load: lets it bend to it without a swing; later, after `dt` of it.
   void beginEasing(DestructibleBody& body);
   void ease(DestructibleBody& body, double dt);
-  void gatherAwakeWholes();
   bool mayMatter(const DestructibleBody& body, const btCollisionObject& other) const;
   void uncouple(DestructibleBody& body);
   /// Those of whole bodies that nothing has met for long.

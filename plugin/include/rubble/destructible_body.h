@@ -3,6 +3,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -56,6 +57,10 @@ class DestructibleBody final : public btRigidBody {
   bool isWhole() const;
 
   struct Impl;
+
+  /// From chunks of their own: what Bullet reads of them in each tick lies side by side.
+  static void* operator new(std::size_t size);
+  static void operator delete(void* memory, std::size_t size);
 
  private:
   friend class Destruction;
