@@ -20,10 +20,10 @@ struct Thing {
   std::size_t group = 0;
 };
 
+// Without its box.
 template <class Real>
-Thing thingOf(const Body<Real>& body) {
+Thing motionOf(const Body<Real>& body) {
   Thing thing;
-  thing.box = boundsOf(body);
   const bool held = body.state.anchorsIntact > 0 && !body.state.base.ride.moves();
   thing.moves = !body.state.asleep && body.state.sleepingCount == 0 && !held;
   if (!thing.moves) return thing;
@@ -137,10 +137,11 @@ void findDrifts(std::span<const std::unique_ptr<Body<Real>>> bodies, std::span<c
   drifts.proxies.assign(proxies.size(), {});
   std::vector<Thing> things;
   things.reserve(bodies.size() + proxies.size());
-  for (const auto& body : bodies) things.push_back(thingOf(*body));
+  for (const auto& body : bodies) things.push_back(motionOf(*body));
   // What moves so little keeps its lists through the tick.
   const auto isFast = [&](const Thing& t) { return t.moves && t.velocity.norm() * left > 0.5 * skin; };
   if (std::none_of(things.begin(), things.end(), isFast)) return;
+  for (std::size_t b = 0; b < bodies.size(); ++b) things[b].box = boundsOf(*bodies[b]);
   for (const RigidProxy& proxy : proxies) things.push_back(thingOf(proxy));
   Groups(things, bodies.size(), proxies, skin, left).join();
   for (std::size_t t = 0; t < things.size(); ++t) {

@@ -79,6 +79,10 @@ void sortEntries(PairList<Real>& list) {
 
 template <class Real>
 void PairLists<Real>::grid(const Body<Real>& body, ElementGrid& out) const {
+  const bool sleeps = body.state.asleep;
+  if (sleeps && out.sleeper == body.id && out.sleepChanges == body.state.sleepChanges) return;
+  out.sleeper = sleeps ? body.id : kNoPair;
+  out.sleepChanges = body.state.sleepChanges;
   out.listed = body.work.position;
   out.grid.build(out.listed, body.state.alive, 2 * double(body.constants->radius) + m_skin);
   out.bounds.setEmpty();
@@ -91,7 +95,10 @@ template <class Real>
 PairList<Real> PairLists<Real>::take(const Body<Real>& a, const Body<Real>& b, std::uint32_t placeA,
                                      std::uint32_t placeB) {
   PairList<Real> list;
-  for (PairList<Real>& o : m_old) {
+  // Lists within bodies mostly stand where they stood.
+  const std::size_t hint =
+      a.id == b.id && placeA < m_old.size() && m_old[placeA].firstId == a.id ? placeA : 0;
+  for (PairList<Real>& o : std::span(m_old).subspan(hint)) {
     if (o.firstId != a.id || o.secondId != b.id) continue;
     list = std::move(o);
     o.firstId = o.secondId = kNoPair;

@@ -38,6 +38,9 @@ struct ElementGrid {
   Grid<double> grid;
   std::vector<Vec3<double>> listed;  ///< positions at the last listing, relative to the body's origin [m]
   Eigen::AlignedBox3d bounds;        ///< of the listed centres, world [m]
+  /// Of a body that slept as a whole: whose, and when; it holds until that wakes.
+  std::uint32_t sleeper = kNoPair;
+  std::uint64_t sleepChanges = 0;
 };
 
 template <class Real>

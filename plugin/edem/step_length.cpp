@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "edem/anchor_ride.h"
 #include "rubble/error.h"
@@ -34,10 +35,20 @@ void operator+=(ElementRates& a, const ElementRates& b) {
 template <class Real>
 void StepLength<Real>::beginTick(std::span<const std::unique_ptr<Body<Real>>> bodies) {
   m_springs.resize(bodies.size());
+  m_rates.resize(bodies.size());
+  m_next.resize(bodies.size());
+  m_sleepers.resize(bodies.size(), kNoPair);
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    m_springs[b].assign(bodies[b]->elementCount(), {});
     const Body<Real>& body = *bodies[b];
-    if (body.state.asleep) continue;
+    if (body.state.asleep) {
+      // What sleeps with all of its body has no rates, in any tick.
+      if (std::exchange(m_sleepers[b], body.id) == body.id && m_rates[b].size() == body.elementCount())
+        continue;
+      m_rates[b].assign(body.elementCount(), {});
+      continue;
+    }
+    m_sleepers[b] = kNoPair;
+    m_springs[b].assign(body.elementCount(), {});
     awakeSpringRates(body, std::span(m_springs[b]));
   }
 }
@@ -98,9 +109,11 @@ void StepLength<Real>::addRides(std::span<const std::unique_ptr<Body<Real>>> bod
 template <class Real>
 void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies,
                              const PairLists<Real>& lists, RigidContacts<Real>& rigid) {
-  m_rates = m_springs;
-  m_next.resize(bodies.size());
-  for (std::size_t b = 0; b < bodies.size(); ++b) m_next[b].assign(m_rates[b].size(), {});
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b]->state.asleep) continue;
+    m_rates[b] = m_springs[b];
+    m_next[b].assign(m_rates[b].size(), {});
+  }
   m_bound = {};
   m_contact2 = 0;
   m_stiffest = 0;
@@ -123,6 +136,7 @@ void StepLength<Real>::bound(std::span<const std::unique_ptr<Body<Real>>> bodies
     m_contact2 = std::max(m_contact2, frequency2);
   });
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b]->state.asleep) continue;
     bodies[b]->work.touchesBegun.assign(bodies[b]->elementCount(), 0);
     for (std::size_t i = 0; i < m_rates[b].size(); ++i) {
       m_rates[b][i] += m_next[b][i];

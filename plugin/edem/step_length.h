@@ -53,6 +53,8 @@ class StepLength {
   std::vector<std::vector<ElementRates>> m_springs, m_rates;  // by body
   std::vector<ElementRates>
       m_rides;  // of dynamic bodies by the anchors that ride on them, beside the proxies
+  std::vector<std::uint32_t>
+      m_sleepers;  // ids of bodies that sleep as a whole, at their places; else kNoPair
   std::vector<std::vector<ElementRates>> m_next;  // of the contact that may begin at each element
   RateBound m_bound;
   double m_contact2 = 0;  // largest frequency^2 of two sides on one contact [1/s^2]
