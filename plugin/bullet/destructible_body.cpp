@@ -54,10 +54,14 @@ double outOf(const edem::CellFaces& cells, std::uint32_t element, const Eigen::V
 }
 
 // Elsewhere a page each would be read in every tick: bodies are made between large arrays. Never ends, for
-// worlds may outlive what is static.
+// worlds may outlive what is static. A sanitizer is to see each body's own end.
 std::pmr::memory_resource& bodyMemory() {
+#ifdef __SANITIZE_ADDRESS__
+  return *std::pmr::new_delete_resource();
+#else
   static auto* const pool = new std::pmr::synchronized_pool_resource({0, 4096});
   return *pool;
+#endif
 }
 constexpr std::size_t kCacheLine = 64;
 
