@@ -24,6 +24,8 @@ constexpr double kLoadShare = 0.5;
 constexpr double kMoreThanSurvived = 1.5;
 // What lies as it lay is looked at this often: half of the time over which the gauge smooths [s].
 constexpr double kLookTime = 0.05;
+// Ticks between two looks, however short they are.
+constexpr double kMostTurns = 1000;
 // A share below which a body that nothing touches has forgotten its loads.
 constexpr double kForgotten = 1e-3;
 // Elements begin unbent under a load that has been there all along, and would swing to twice the bending.
@@ -69,8 +71,9 @@ void visitWhole(btDispatcher& dispatcher, IsWanted&& isWanted, Visit&& visit) {
 // All that is awake by turns, for a look goes through memory that nothing else needs; in the ticks between
 // them only what does not lie as it lay.
 void Destruction::Impl::gatherLooked(double dt) {
-  const auto turn = dt > 0 ? std::uint64_t(std::max(1L, std::lround(kLookTime / dt))) : 1;
   lookedWholes.clear();
+  if (!(dt > 0)) return;
+  const auto turn = std::uint64_t(std::clamp(std::round(kLookTime / dt), 1.0, kMostTurns));
   for (DestructibleBody* body : ticks % turn == 0 ? wholeBodies : unsettledWholes)
     if (body->getActivationState() != ISLAND_SLEEPING) lookedWholes.push_back(body);
 }
@@ -99,7 +102,7 @@ void Destruction::Impl::gatherPatches(double dt) {
 
 // Most that is awake lies as it lay, and is looked at no further.
 void Destruction::Impl::noteLoads(double dt) {
-  if (lookedWholes.empty() || !(dt > 0)) return;
+  if (lookedWholes.empty()) return;
   BT_PROFILE("Rubble note loads");
   for (DestructibleBody* body : lookedWholes) implOf(*body).isLooked = body->isActive();
   sumPressures();

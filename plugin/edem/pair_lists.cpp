@@ -96,8 +96,9 @@ PairList<Real> PairLists<Real>::take(const Body<Real>& a, const Body<Real>& b, s
                                      std::uint32_t placeB) {
   PairList<Real> list;
   // Lists within bodies mostly stand where they stood.
-  const std::size_t hint =
-      a.id == b.id && placeA < m_old.size() && m_old[placeA].firstId == a.id ? placeA : 0;
+  const bool stands = placeA == placeB && placeA < m_old.size() && m_old[placeA].firstId == a.id &&
+                      m_old[placeA].secondId == b.id;
+  const std::size_t hint = stands ? placeA : 0;
   for (PairList<Real>& o : std::span(m_old).subspan(hint)) {
     if (o.firstId != a.id || o.secondId != b.id) continue;
     list = std::move(o);
