@@ -30,7 +30,8 @@ std::optional<Eigen::Isometry3d> placeOfWhole(const DestructibleBody& body) {
 }
 
 // How far a place, about the centre and in the asset's axes, is out of a cell, by all faces that it is out of
-// [m]: Bullet's rays end up to 1 cm before a shape. Less than 0 within.
+// [m]: Bullet's rays end up to 1 cm before a shape. Less than 0 within. Planes are those of all triangles of
+// a face, for its own is that of its first one, which may be a sliver.
 double outOf(const edem::CellFaces& cells, std::uint32_t element, const Eigen::Vector3d& place) {
   double out2 = 0, furthest = -std::numeric_limits<double>::infinity();
   for (const edem::CellFaces::Face& face : cells.of(element)) {

@@ -79,7 +79,6 @@ TEST(DefaultBody, ABlockOnTheGroundIsWholeUntilABallBreaksIt) {
   EXPECT_GT(w.destruction->counts().springsBroken, 50u);
 }
 
-// What an application asks for by name.
 // Bullet has one user pointer and three user indices, and they are not ours.
 TEST(DefaultBody, ItsUserPointerAndIndicesAreTheApplications) {
   BulletWorld w;
@@ -110,6 +109,7 @@ TEST(DefaultBody, ItsUserPointerAndIndicesAreTheApplications) {
   EXPECT_GT(w.destruction->counts().springsBroken, 0u);
 }
 
+// What an application asks for by name.
 TEST(DefaultBody, IsElementsFromTheStartWhereTheApplicationSaysSo) {
   BulletWorld w;
   DestructibleBodyDef def = plainDef(smallWall());
