@@ -1,6 +1,7 @@
 #include "edem/corner_hits.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace rubble::edem {
@@ -17,12 +18,20 @@ auto nameOf(const CornerHit& h) {
 }  // namespace
 
 void CornerHits::settle() {
-  std::stable_sort(m_hits.begin(), m_hits.end(), [](const CornerHit& a, const CornerHit& b) {
-    return nameOf(a) != nameOf(b) ? nameOf(a) < nameOf(b) : a.rank > b.rank;
+  m_order.resize(m_hits.size());
+  std::iota(m_order.begin(), m_order.end(), std::uint32_t(0));
+  std::sort(m_order.begin(), m_order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const CornerHit &a = m_hits[i], &b = m_hits[j];
+    if (nameOf(a) != nameOf(b)) return nameOf(a) < nameOf(b);
+    return a.rank != b.rank ? a.rank > b.rank : i < j;
   });
-  const auto same = [](const CornerHit& a, const CornerHit& b) { return nameOf(a) == nameOf(b); };
-  m_hits.erase(std::unique(m_hits.begin(), m_hits.end(), same), m_hits.end());
-  std::stable_sort(m_hits.begin(), m_hits.end(), byCandidate);
+  const auto same = [&](std::uint32_t i, std::uint32_t j) { return nameOf(m_hits[i]) == nameOf(m_hits[j]); };
+  m_order.erase(std::unique(m_order.begin(), m_order.end(), same), m_order.end());
+  // They are in order as they were added.
+  std::sort(m_order.begin(), m_order.end());
+  for (std::size_t place = 0; place < m_order.size(); ++place)
+    if (m_order[place] != place) m_hits[place] = m_hits[m_order[place]];
+  m_hits.erase(m_hits.begin() + std::ptrdiff_t(m_order.size()), m_hits.end());
 }
 
 void CornerHits::renew(std::uint32_t proxy, std::uint32_t candidate, std::span<const FaceHit> hits) {

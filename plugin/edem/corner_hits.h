@@ -41,7 +41,8 @@ class CornerHits {
   std::span<const CornerHit> of(std::uint32_t candidate) const;
 
  private:
-  std::vector<CornerHit> m_hits;  // rising in candidate
+  std::vector<CornerHit> m_hits;       // rising in candidate
+  std::vector<std::uint32_t> m_order;  // scratch
 };
 
 }  // namespace rubble::edem

@@ -26,6 +26,7 @@ constexpr double kSeam = 1e-3;
 // A side of a rigid body that is beyond one of a cell by less than this, over h, is flush with it: its edge
 // presses the cell. Beyond that the cell's vertices, as far inside the body, bear before they are as deep.
 constexpr double kFlush = 0.05;
+static_assert(kCornerSlack > kFlush + kSeam);
 // A point that weighs more than this, over that of its area, will press with the next turn: it stands
 // upright.
 constexpr double kUpright = -0.1;
@@ -93,12 +94,17 @@ double FaceTouch::approach(const RigidProxy& proxy, const Eigen::Vector3d& at, d
   m_near.clear();
   m_nearest = {kInfinity, Eigen::Vector3d::UnitY()};
   m_sideCount = 0;
+  m_gap = kInfinity;
   for (std::uint32_t p = 0; p < proxy.parts.size(); ++p) {
     const Collider& part = proxy.parts[p];
     const bool looks = part.kind == Collider::Kind::Mesh && std::isfinite(reach);
     const SurfacePoint s = looks ? lookAtMesh(part, at, reach) : nearest(part, at);
     if (s.distance < m_nearest.distance) m_nearest = s;
-    if (s.distance >= reach) continue;
+    if (s.distance >= reach) {
+      m_gap = std::min(
+          m_gap, std::isfinite(s.distance) ? s.distance - reach : 0);  // of a mesh: it was not sought further
+      continue;
+    }
     m_near.push_back({&part, p, s, Eigen::Vector3d::Zero(), m_sideCount});
     if (looks) ++m_sideCount;
   }
@@ -109,8 +115,9 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
                      const ElementPose& pose, bool balls) {
   m_hits.clear();
   m_deepest = 0;
-  for (Near& n : m_near) n.normal = pose.turn.transpose() * n.centre.normal;
   if (exposure.count[element] > 0) {
+    turnNormals(pose);
+    leaveOutApart(cells, element, 0);
     findPoints(cells, exposure, element, pose);
     for (const Near& n : m_near) {
       if (balls && !hasCorners(*n.part)) findBalls(n, cells, exposure, element, pose);
@@ -128,15 +135,39 @@ void FaceTouch::find(const CellFaces& cells, const Exposure& exposure, std::uint
 }
 
 void FaceTouch::findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                            const ElementPose& pose) {
+                            const ElementPose& pose, bool beyond) {
   m_hits.clear();
   if (exposure.count[element] == 0) return;
+  turnNormals(pose);
+  if (!beyond) leaveOutApart(cells, element, kCornerSlack * std::sqrt(cells.unit));
   for (const Near& n : m_near) {
     if (!hasCorners(*n.part)) continue;
     findBalls(n, cells, exposure, element, pose);
     if (hasEdges(*n.part)) findEdgePoints(n, cells, exposure, element, pose);
     if (n.part->isRound()) findRims(n, cells, exposure, element, pose);
   }
+}
+
+void FaceTouch::turnNormals(const ElementPose& pose) {
+  for (Near& n : m_near) n.normal = pose.turn.transpose() * n.centre.normal;
+}
+
+// A convex part is all below the plane at its point that is nearest to the element's centre. Most cells that
+// are near a body are above it.
+void FaceTouch::leaveOutApart(const CellFaces& cells, std::uint32_t element, double slack) {
+  const auto gapTo = [&](const Near& n) {
+    if (n.part->kind == Collider::Kind::Mesh) return 0.0;
+    double least = kInfinity;
+    for (std::uint32_t v = cells.firstVertex[element]; v < cells.firstVertex[element + 1] && least > slack;
+         ++v)
+      least = std::min(least, scalarDot(n.normal, cells.vertices[v]) + n.centre.distance);
+    return least;
+  };
+  std::erase_if(m_near, [&](const Near& n) {
+    const double gap = gapTo(n);
+    m_gap = std::min(m_gap, gap);
+    return gap > slack;
+  });
 }
 
 // Searches no further than an element with its centre at `at` reaches, at least to its core.
@@ -332,6 +363,7 @@ FacePress facePress(std::span<const FaceHit> hits, const ContactLaw<double>& law
     addScaled(-(1 - kept), turned, dampingTorque);
     energy += 0.5 * stiffness * depth * depth;
     full += whole;
+    press.stiffness += hit.weight;
     addScaled(hit.weight * depth, hit.at, at);
     addScaled(hit.weight * depth, hit.normal, normal);
     weight += hit.weight * depth;

@@ -45,6 +45,9 @@ struct ElementPose {
   Eigen::Matrix3d turn;  ///< from the axes of the element at rest
 };
 
+/// Corners may press cells that they are out of by less than this, over h: see FaceTouch::findCorners.
+constexpr double kCornerSlack = 0.1;
+
 /// Motion of an element's fragment relative to a rigid body, in the same axes and about the same point.
 struct PartingMotion {
   Eigen::Vector3d centre, spin;
@@ -67,9 +70,9 @@ class FaceTouch {
   void find(const CellFaces& cells, const Exposure& exposure, std::uint32_t element, const ElementPose& pose,
             bool balls);
   /// The hits of corners and edges of boxes and hulls, tips of cones and rims alone, at the nearest point of
-  /// the exposed faces; those beyond the cell's covered faces, too.
+  /// the exposed faces. `beyond`: those beyond the cell's covered faces, too.
   void findCorners(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
-                   const ElementPose& pose);
+                   const ElementPose& pose, bool beyond);
   void add(const FaceHit& hit) { m_hits.push_back(hit); }
   /// Notes at every hit what it withholds of its force by the speed at which the fragment parts there, see
   /// withheld in fragment_motion.h.
@@ -78,6 +81,8 @@ class FaceTouch {
   /// Depth of the deepest of them and of the points that will press with the least turn, as those of a face
   /// that stands upright in a plane do; 0: none [m].
   double deepest() const { return m_deepest; }
+  /// Where nothing touches: no point of the element can before it has come this far [m].
+  double gap() const { return m_gap; }
   /// Takes change(hit) [m] off the depth of every hit; those that have none left are hits no more.
   template <class Change>
   void lift(Change&& change) {
@@ -119,6 +124,11 @@ class FaceTouch {
 
   SurfacePoint lookAtMesh(const Collider& part, const Eigen::Vector3d& at, double reach);
 
+  // Notes the normals of the parts that are near in the element's axes.
+  void turnNormals(const ElementPose& pose);
+  // Forgets the convex parts that a plane parts from the cell by more than `slack` [m].
+  void leaveOutApart(const CellFaces& cells, std::uint32_t element, double slack);
+
   void findPoints(const CellFaces& cells, const Exposure& exposure, std::uint32_t element,
                   const ElementPose& pose);
   // In round_touch.cpp.
@@ -145,6 +155,7 @@ class FaceTouch {
   std::vector<Near> m_near;
   std::vector<FaceHit> m_hits;
   double m_deepest = 0;
+  double m_gap = 0;
   std::vector<MeshSide> m_sides;  // of the meshes in m_near
   std::uint32_t m_sideCount = 0;
   SurfacePoint m_nearest{0, Eigen::Vector3d::UnitY()};
@@ -166,6 +177,7 @@ struct FacePress {
   double total = 0;                                  // force along it [N]
   double spread = 0;                                 // mean distance of the pressure from its centroid [m]
   double weight = 0;                                 // sum of the hits' weight times depth; 0: no contact
+  double stiffness = 0;                              // of all hits, over k_n
   double full = 0;                                   // the same before any is withheld [N]
   double energy = 0;                                 // [J]
 };

@@ -26,6 +26,7 @@ NearestFace::NearestFace(const CellFaces& cells, const Exposure& exposure, std::
       inside = inside && (above <= 0 || (above <= flush && isAlike(faces[f])));
     else
       beyond = std::max(beyond, above);
+    if (!inside && !(radius > 0)) return;  // a point sees no face from outside
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (!exposure.faces[cells.firstFace[element] + f]) continue;

@@ -79,6 +79,7 @@ void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, do
                     proxy.position == last->left.position &&
                     proxy.orientation.coeffs() == last->left.orientation.coeffs();
       state.pressed = last->size;
+      state.pressedRate = last->pressedRate;
       state.surplusNext = last->surplusNext;
       if (!state.leapt) state.corners = std::move(last->corners);
     }

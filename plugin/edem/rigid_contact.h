@@ -20,6 +20,14 @@ struct FaceMemory {
   double yielded = 0;  ///< given way by in the last step [m]
 };
 
+/// How far an element was from a rigid body when that was last worked out.
+struct Clearance {
+  double gap = 0;   ///< no point of its cell can touch before it has come this far; 0: not known [m]
+  double area = 0;  ///< exposed then [m^2]
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the element's centre, frame of the rigid body [m]
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< from the axes of the element at rest
+};
+
 /// An element and a rigid body that are near each other.
 struct RigidContact {
   std::uint32_t proxy, body, element;  ///< places
@@ -32,8 +40,12 @@ struct RigidContact {
   double lone = 0;           ///< the weight of what acts at once, without levers
   double balls = 0;          ///< weights of corners, edges and spheres near
   double edges = 0;          ///< of them those of edges
+  double mobility = 0;       ///< what an impulse of 1 moves the rigid body by there, at most [1/kg]
   bool core = false;         ///< near
+  bool cornered = true;      ///< corners of the rigid body may have been in the element at the last instant
   std::uint32_t push = 0;    ///< while touching: into the pushes of this substep
+  Clearance clear;           ///< while not touching
+  bool apart = false;        ///< nothing of it can touch in this substep
   double exposed = 0;        ///< area of exposed faces when the weights were taken [m^2]
 };
 
@@ -46,6 +58,7 @@ struct RigidTouch {
   Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
   double energy = 0;                               ///< in its springs [J]
   double slipped = 0;                              ///< lost by them since the last instant [J]
+  double weight = 0;                               ///< stiffness of what presses, over k_n
   double power = 0;                                ///< of the elastic loads [W]
   Eigen::Vector3d full = Eigen::Vector3d::Zero();  ///< normal force on it before any is withheld [N]
   std::size_t resting = 0;                         ///< place among the resting loads
@@ -70,8 +83,10 @@ struct RigidState {
   Eigen::Vector3d dampingForce = Eigen::Vector3d::Zero(), dampingTorque = Eigen::Vector3d::Zero();
   Eigen::Vector3d anchorForce = Eigen::Vector3d::Zero();  ///< of them those of anchors
   Eigen::Vector3d anchorTorque = Eigen::Vector3d::Zero();
-  double size = 0;     ///< sum of |force| of contacts [N]
-  double pressed = 0;  ///< the same in the last substep [N]
+  double size = 0;         ///< sum of |force| of contacts [N]
+  double pressed = 0;      ///< the same in the last substep [N]
+  double pressedRate = 0;  ///< its frequency^2 on what presses it in this substep [1/s^2]
+  bool struck = false;     ///< it came fast enough for a blow when the substep was chosen
   Eigen::Vector3d listedPosition = Eigen::Vector3d::Zero();
   Eigen::Quaterniond listedOrientation = Eigen::Quaterniond::Identity();
   double surplusNext = 0;                ///< second half step of RigidProxy::surplus [J]

@@ -16,6 +16,10 @@ namespace {
 constexpr double kStays = 0.01;
 // What comes into elements by less than this share of their radius, all springs together, rests on them.
 constexpr double kBlow = 1e-3;
+// The blow of what is lighter than an element is followed as if this many times as much pressed it as does,
+// until so much does. All that is near it, as of others, may be far more, and where it is fast as that its
+// blows are what shortens the substep.
+constexpr double kGrows = 2;
 
 }  // namespace
 
@@ -68,7 +72,7 @@ void RigidContacts<Real>::weigh(Bodies bodies) {
   }
   if (same && !m_lists.contacts().empty()) return;
   for (RigidState& s : m_states) s.mobility = s.rate = s.edgeRate = s.edgeMost = 0;
-  for (const RigidContact& c : m_lists.contacts())
+  for (RigidContact& c : m_lists.contacts())
     addMobility(c, *bodies[c.body], m_proxies[c.proxy], m_states[c.proxy]);
   for (std::size_t p = 0; p < m_proxies.size(); ++p) addEdges(m_proxies[p], m_states[p]);
   soften(std::numeric_limits<double>::infinity());
@@ -117,8 +121,10 @@ template <class Real>
 void RigidContacts<Real>::findAllCorners(Bodies bodies, CornerHits& corners) {
   corners.clear();
   for (const RigidContact& c : m_lists.contacts()) {
-    if (!bodies[c.body]->constants->cells || !(c.balls > 0)) continue;
-    findCorners(*bodies[c.body], c.element, m_proxies[c.proxy], m_faces);
+    if (!bodies[c.body]->constants->cells || c.apart || !(c.balls > 0)) continue;
+    const auto& parts = m_proxies[c.proxy].parts;
+    if (std::none_of(parts.begin(), parts.end(), hasCorners)) continue;
+    findCorners(*bodies[c.body], c, m_proxies[c.proxy], m_faces);
     const Body<Real>& body = *bodies[c.body];
     const double favour = kStays * std::sqrt(body.constants->cells->unit);
     corners.add(c.proxy, m_lists.placeOf(c), m_faces.hits(), favour, [&](const FaceHit& hit) {
@@ -131,8 +137,10 @@ void RigidContacts<Real>::findAllCorners(Bodies bodies, CornerHits& corners) {
 template <class Real>
 bool RigidContacts<Real>::touch(RigidContact& c, const Body<Real>& body, const CornerHits& corners,
                                 const Steps& steps, RestingLoads& resting, RigidTouch& out) {
-  return touchRigid(c, body, {m_proxies[c.proxy], m_states[c.proxy]}, corners.of(m_lists.placeOf(c)),
-                    {steps, m_moved, m_faces, resting}, out);
+  const std::span<const CornerHit> own = corners.of(m_lists.placeOf(c));
+  c.cornered = c.cornered || !own.empty();
+  return touchRigid(c, body, {m_proxies[c.proxy], m_states[c.proxy]}, own, {steps, m_moved, m_faces, resting},
+                    out);
 }
 
 // Takes what a contact does into this substep.
@@ -207,9 +215,13 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     s.force = s.torque = s.dampingForce = s.dampingTorque = Eigen::Vector3d::Zero();
     s.anchorForce = s.anchorTorque = Eigen::Vector3d::Zero();
     s.pressed = std::exchange(s.size, 0);
+    s.pressedRate = 0;
     s.corners.beginStep();
   }
   m_pushes.clear();
+  for (RigidContact& c : m_lists.contacts())
+    c.apart = bodies[c.body]->constants->cells && !m_states[c.proxy].moved &&
+              isApart(c, *bodies[c.body], m_proxies[c.proxy]);
   findAllCorners(bodies);
   m_moved = steps.moved;
   m_elastic = m_lists.keptEnergy();
@@ -222,6 +234,11 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     // More of it may touch than the step was chosen for: as if several contacts had begun.
     if (body.constants->cells && body.state.exposure.area[c.element] > c.exposed)
       body.work.touchesBegun[c.element] = 2;
+    c.cornered = false;
+    if (c.apart) {
+      c.memory.energy = 0;
+      continue;
+    }
     RigidTouch t;
     const bool touched = c.touching;
     // What has been put there has come no way.
@@ -238,6 +255,8 @@ void RigidContacts<Real>::accumulate(Bodies bodies, const Steps& steps, double k
     add(t, c, body);
     pushMotion(body.work.motions[body.work.motionOf[c.element]], t.x, t.force, t.torque);
     resting.push(t.resting, t.full);
+    RigidState& state = m_states[c.proxy];
+    state.pressedRate += t.weight * c.mobility * state.laws[c.body].stiffness;
     const double size = kick * t.force.norm();
     proxy.contactPoint += size * t.at;
     proxy.contactWeight += size;
@@ -278,7 +297,7 @@ void RigidContacts<Real>::expose(Bodies bodies, double step, double kick, Restin
     const RigidTouch before = m_pushes[c.push].touch;
     take(c, body);
     if (c.balls > 0) {
-      findCorners(body, c.element, m_proxies[c.proxy], m_faces);
+      findCorners(body, c, m_proxies[c.proxy], m_faces);
       m_corners.renew(c.proxy, m_lists.placeOf(c), m_faces.hits());
     }
     RigidTouch now;
@@ -348,24 +367,38 @@ double RigidContacts<Real>::maxSpeed(std::span<const Drift> drifts) const {
 }
 
 template <class Real>
-double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const {
-  double highest = 0;
+double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift> drifts) {
+  m_blow2 = 0;
   const std::vector<RigidContact>& contacts = m_lists.contacts();
   for (auto c = contacts.begin(); c != contacts.end();) {
     const RigidProxy& proxy = m_proxies[c->proxy];
-    const double frequency2 = m_states[c->proxy].rates.stiffness;
-    double energy = 0, radius = std::numeric_limits<double>::infinity();
+    RigidState& state = m_states[c->proxy];
+    double energy = 0, lone = 0;
+    double radius = std::numeric_limits<double>::infinity(), lightest = radius;
     for (const std::uint32_t place = c->proxy; c != contacts.end() && c->proxy == place; ++c) {
       energy += c->memory.energy;
       radius = std::min(radius, double(bodies[c->body]->constants->radius));
+      lightest = std::min(lightest, bodies[c->body]->constants->lightest);
+      lone = std::max(lone, std::max(1.0, c->lone) * c->mobility * state.laws[c->body].stiffness);
     }
-    if (!proxy.isDynamic() || frequency2 <= highest) continue;
+    state.struck = false;
+    if (!proxy.isDynamic()) continue;
+    const bool light = proxy.inverseMass * lightest > 1;
+    const double pressed = light ? std::max(kGrows * state.pressedRate, lone) : state.rates.stiffness,
+                 frequency2 = std::min(state.rates.stiffness, pressed);
     // In the middle of a blow it stands, and the springs have its energy.
     const double speed = speedOf(proxy, drifts[std::size_t(&proxy - m_proxies.data())].velocity);
     const double rests = kBlow * radius;
-    if (speed * speed + 2 * proxy.inverseMass * energy > rests * rests * frequency2) highest = frequency2;
+    state.struck = speed * speed + 2 * proxy.inverseMass * energy > rests * rests * state.rates.stiffness;
+    if (state.struck) m_blow2 = std::max(m_blow2, frequency2);
   }
-  return highest;
+  return m_blow2;
+}
+
+template <class Real>
+bool RigidContacts<Real>::blowGrew() const {
+  return std::any_of(m_states.begin(), m_states.end(),
+                     [&](const RigidState& s) { return s.struck && s.pressedRate > m_blow2; });
 }
 
 template <class Real>

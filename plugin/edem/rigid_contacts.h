@@ -89,9 +89,11 @@ class RigidContacts {
 
   /// Largest speed of a proxy's surface beside its drift [m/s].
   double maxSpeed(std::span<const Drift> drifts) const;
-  /// Highest frequency^2 of a rigid body on all that is near it, of those that come fast enough for a blow
-  /// [1/s^2].
-  double blowFrequency2(Bodies bodies, std::span<const Drift> drifts) const;
+  /// Highest frequency^2 of a rigid body on what presses it and on what may begin to, of those that come fast
+  /// enough for a blow [1/s^2].
+  double blowFrequency2(Bodies bodies, std::span<const Drift> drifts);
+  /// Whether more presses one of them since than that was for.
+  bool blowGrew() const;
   /// Shortest time in which a sphere that moves at `speed` is through a rigid body that it is near [s].
   double shortestPass(Bodies bodies, std::span<const Drift> drifts, double speed) const;
   std::span<const RigidProxy> proxies() const { return m_proxies; }
@@ -125,6 +127,7 @@ class RigidContacts {
   CornerHits m_corners, m_cornersLeft;  // where the proxies are, and where the last substep left them
   double m_moved = 0;                   // length of the step before the last accumulate [s]
   double m_elastic = 0;
+  double m_blow2 = 0;  // what blowFrequency2 was last
   double m_share = 1;  // of the stiffness that bodies ask for
 };
 

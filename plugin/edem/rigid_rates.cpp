@@ -99,12 +99,13 @@ ElementRates ratesOf(const RigidContact& c, const Body<Real>& body, const Contac
 
 // An impulse J at a point r from the centre moves that point by at most (1/m + r^2 / I) J.
 template <class Real>
-void addMobility(const RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, RigidState& state) {
+void addMobility(RigidContact& c, const Body<Real>& body, const RigidProxy& proxy, RigidState& state) {
   if (!(c.weight > 0) || !proxy.isDynamic()) return;
   const Eigen::Vector3d x = body.state.origin + body.work.position[c.element];
   const double mobility = mobilityAt(
       proxy, x - proxy.position,
       body.constants->cells ? body.constants->cells->reach[c.element] : double(body.constants->radius));
+  c.mobility = mobility;
   state.mobility += mobility;
   state.rate += (c.weight - c.edges) * mobility * body.constants->contact.stiffness;
   if (!(c.edges > 0)) return;
@@ -142,7 +143,7 @@ template void weighFaces(RigidContact&, const Body<float>&, const RigidProxy&, F
 template void weighFaces(RigidContact&, const Body<double>&, const RigidProxy&, FaceTouch&);
 template ElementRates ratesOf(const RigidContact&, const Body<float>&, const ContactLaw<double>&, double&);
 template ElementRates ratesOf(const RigidContact&, const Body<double>&, const ContactLaw<double>&, double&);
-template void addMobility(const RigidContact&, const Body<float>&, const RigidProxy&, RigidState&);
-template void addMobility(const RigidContact&, const Body<double>&, const RigidProxy&, RigidState&);
+template void addMobility(RigidContact&, const Body<float>&, const RigidProxy&, RigidState&);
+template void addMobility(RigidContact&, const Body<double>&, const RigidProxy&, RigidState&);
 
 }  // namespace rubble::edem

@@ -22,8 +22,7 @@ ElementRates ratesOf(const RigidContact& contact, const Body<Real>& body, const 
 
 /// Adds a contact to what the rigid body's rates are taken from.
 template <class Real>
-void addMobility(const RigidContact& contact, const Body<Real>& body, const RigidProxy& proxy,
-                 RigidState& state);
+void addMobility(RigidContact& contact, const Body<Real>& body, const RigidProxy& proxy, RigidState& state);
 
 /// Adds the edges of all contacts: each of their points presses one element, whichever it is near.
 void addEdges(const RigidProxy& proxy, RigidState& state);

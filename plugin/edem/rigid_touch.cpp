@@ -98,6 +98,7 @@ bool touchSphere(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   motion.overlap -= yield.yielded;
   motion.share = touchShare(motion.overlap, speed, steps.next, c.memory.onset);
   out.slipped = yield.lost;
+  out.weight = 1;
   finish<Real>(motion, contactLoad(law, motion, steps.moved, c.memory), out);
   return true;
 }
@@ -265,8 +266,13 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   ElementPose pose;
   pose.at = proxy.orientation.conjugate() * (out.x - proxy.position);
   const double reach = std::max(cells.core[i], body.state.exposure.count[i] > 0 ? cells.reach[i] : 0);
-  if (work.faces.approach(proxy, pose.at, reach) >= reach && !c.touching) {
+  const auto stayClear = [&] {
     c.faces = {};
+    c.clear = {work.faces.gap(), body.state.exposure.area[i], pose.at,
+               proxy.orientation.conjugate() * body.orientation(i)};
+  };
+  if (work.faces.approach(proxy, pose.at, reach) >= reach && !c.touching) {
+    stayClear();
     return false;
   }
   const Eigen::Matrix3d turn = body.orientation(i).toRotationMatrix();
@@ -282,6 +288,10 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
   const ContactLaw<double>& law = side.state.laws[c.body];
   const Parting parting = partingOf(body, i, out.x, side, work);
   out.resting = parting.resting;
+  if (!c.touching && corners.empty() && work.faces.hits().empty() && !(work.faces.deepest() > 0)) {
+    stayClear();
+    return false;
+  }
   const PartingMotion fragment{turn.transpose() * parting.centre, turn.transpose() * parting.spin,
                                parting.jolt, parting.share};
   const double fastest = own.centre.norm() + own.spin.norm() * cells.reach[i];
@@ -292,6 +302,7 @@ bool touchFaces(RigidContact& c, const Body<Real>& body, const RigidSide& side,
     out.slipped += lostAtParting(law, velocity, motion.spin, moved, c.memory);
     return false;
   }
+  out.weight = press.stiffness;
   const Eigen::Vector3d arm = turn * press.at;
   out.at = out.x + arm;
   motion.normal = turn * press.normal;
@@ -311,12 +322,30 @@ ElementPose poseOf(const Body<Real>& body, std::uint32_t element, const RigidPro
   return {back * (x - proxy.position), (back * body.orientation(element)).toRotationMatrix()};
 }
 
+// A turn by an angle takes no point further than 2 sin(angle / 2) of its distance from the centre.
 template <class Real>
-void findCorners(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy, FaceTouch& faces) {
+bool isApart(const RigidContact& contact, const Body<Real>& body, const RigidProxy& proxy) {
+  const std::uint32_t i = contact.element;
+  const Clearance& clear = contact.clear;
+  const double left = clear.gap - kCornerSlack * std::sqrt(body.constants->cells->unit);
+  if (!(left > 0) || contact.touching || contact.cornered || clear.area != body.state.exposure.area[i])
+    return false;
+  const Eigen::Quaterniond back = proxy.orientation.conjugate();
+  const double moved =
+      (back * (body.state.origin + body.work.position[i] - proxy.position) - clear.at).norm();
+  if (!(moved < left)) return false;
+  const double turned = 2 * (back * body.orientation(i) * clear.turn.conjugate()).vec().norm();
+  return moved + turned * body.constants->cells->reach[i] < left;
+}
+
+template <class Real>
+void findCorners(const Body<Real>& body, const RigidContact& contact, const RigidProxy& proxy,
+                 FaceTouch& faces) {
+  const std::uint32_t element = contact.element;
   const ElementPose pose = poseOf(body, element, proxy);
   const double reach = body.state.exposure.count[element] > 0 ? body.constants->cells->reach[element] : 0;
   faces.approach(proxy, pose.at, reach);
-  faces.findCorners(*body.constants->cells, body.state.exposure, element, pose);
+  faces.findCorners(*body.constants->cells, body.state.exposure, element, pose, contact.cornered);
 }
 
 template <class Real>
@@ -329,8 +358,10 @@ bool touchRigid(RigidContact& contact, const Body<Real>& body, const RigidSide& 
 
 template ElementPose poseOf(const Body<float>&, std::uint32_t, const RigidProxy&);
 template ElementPose poseOf(const Body<double>&, std::uint32_t, const RigidProxy&);
-template void findCorners(const Body<float>&, std::uint32_t, const RigidProxy&, FaceTouch&);
-template void findCorners(const Body<double>&, std::uint32_t, const RigidProxy&, FaceTouch&);
+template bool isApart(const RigidContact&, const Body<float>&, const RigidProxy&);
+template bool isApart(const RigidContact&, const Body<double>&, const RigidProxy&);
+template void findCorners(const Body<float>&, const RigidContact&, const RigidProxy&, FaceTouch&);
+template void findCorners(const Body<double>&, const RigidContact&, const RigidProxy&, FaceTouch&);
 template bool touchRigid(RigidContact&, const Body<float>&, const RigidSide&, std::span<const CornerHit>,
                          const TouchWork&, RigidTouch&);
 template bool touchRigid(RigidContact&, const Body<double>&, const RigidSide&, std::span<const CornerHit>,

@@ -30,9 +30,15 @@ struct TouchWork {
 template <class Real>
 ElementPose poseOf(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy);
 
+/// True where the element has come less far since it was last looked at than it was from the rigid body: it
+/// touches nothing, nor do corners of the rigid body touch it.
+template <class Real>
+bool isApart(const RigidContact& contact, const Body<Real>& body, const RigidProxy& proxy);
+
 /// Leaves the hits of corners of the rigid body in the element in `faces`.
 template <class Real>
-void findCorners(const Body<Real>& body, std::uint32_t element, const RigidProxy& proxy, FaceTouch& faces);
+void findCorners(const Body<Real>& body, const RigidContact& contact, const RigidProxy& proxy,
+                 FaceTouch& faces);
 
 /// Brings a contact to the present instant; `corners` are those that press its element. False when it does
 /// not touch; `out` has what its springs lost all the same.

@@ -249,7 +249,7 @@ void tick(World<Real>& w, double dt, const Eigen::Vector3d& gravity, std::span<R
       listed = true;
     }
     if (listed) refreshFragments(w);
-    if (listed || contactsBegan(w)) {
+    if (listed || contactsBegan(w) || w.rigid.blowGrew()) {
       // What is near has changed: the rest of the tick in equal steps that are short enough for it.
       const double longest = substeps == 0 ? longestStep(w, dt) : std::min(step, longestStep(w, dt));
       if (!w.failure.empty()) break;
