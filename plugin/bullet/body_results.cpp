@@ -123,11 +123,13 @@ void Destruction::Impl::noteReactions(double dt) {
     }
     const bool rests = t.velocity.length() <= quiet && velocity.length() <= quiet;
     if (!rests && !ridden) continue;
-    bullet::Reaction now{t.object, rate * (velocity - t.velocity - t.deltaVelocity) - t.acceleration,
-                         rate * (spin - t.spin - t.deltaSpin) - t.angularAcceleration, rests};
+    const btVector3 byElements = t.deltaVelocity - t.supported,
+                    spinByElements = t.deltaSpin - t.supportedSpin;
+    bullet::Reaction now{t.object, rate * (velocity - t.velocity - byElements) - t.acceleration,
+                         rate * (spin - t.spin - spinByElements) - t.angularAcceleration, rests};
     if (!rests) {  // no more than bears it: a blow is over in the next tick
-      now.linear = atMost(now.linear, t.acceleration + rate * t.deltaVelocity);
-      now.angular = atMost(now.angular, t.angularAcceleration + rate * t.deltaSpin);
+      now.linear = atMost(now.linear, t.acceleration + rate * byElements);
+      now.angular = atMost(now.angular, t.angularAcceleration + rate * spinByElements);
     }
     for (const bullet::Reaction& last : before) {
       if (last.body != now.body) continue;

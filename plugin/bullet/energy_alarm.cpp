@@ -51,8 +51,8 @@ double EnergyAlarm::allowed(const TouchedBody& t, const edem::RigidProxy& proxy,
   const double applied = mass * std::max(a.dot(moved), 0.5 * dt * a.dot(v0 + v1)) +
                          0.5 * dt * turning.dot(begun.inertia * (w0 + w1));
   // Of contacts and joints. What they take is no loss to the elements.
-  const Eigen::Vector3d push = v1 - v0 - toEigen(t.deltaVelocity) - dt * a,
-                        twist = w1 - w0 - toEigen(t.deltaSpin) - dt * turning;
+  const Eigen::Vector3d push = v1 - v0 - toEigen(t.deltaVelocity - t.supported) - dt * a,
+                        twist = w1 - w0 - toEigen(t.deltaSpin - t.supportedSpin) - dt * turning;
   const double others = 0.5 * (mass * push.dot(v0 + v1) + twist.dot(begun.inertia * (w0 + w1)));
   return lost + applied + std::max(others, 0.0);
 }

@@ -64,48 +64,58 @@ void Destruction::Impl::gatherProxies(double dt) {
     std::vector<btCollisionObject*>& near = implOf(*body).near;
     const bool rides = base.body && base.ridden && body->isActive();
     if (rides && std::find(near.begin(), near.end(), base.body) == near.end()) near.push_back(base.body);
-    for (btCollisionObject* object : near) {
-      const auto known = [&](const bullet::TouchedBody& t) { return t.object == object; };
-      if (upcastElements(object) || std::any_of(touched.begin(), touched.end(), known)) continue;
-      edem::RigidProxy proxy = proxyMaker.make(*object, boxes);
-      auto* link = btMultiBodyLinkCollider::upcast(object);
-      if (link) bullet::take(*link, dt, proxy);
-      if (proxy.parts.empty() && !(rides && base.is(*object))) continue;
-      bullet::TouchedBody t;
-      t.object = object;
-      if (proxy.isDynamic()) {
-        t.rigid = btRigidBody::upcast(object);
-        proxy.placed = t.rigid && wasPlaced(*object);
-        if (t.rigid) proxy.rounding = roundingOf(proxy);
-        t.link = link;
-        t.velocity = toBullet(proxy.velocity);
-        t.spin = toBullet(proxy.spin);
-        t.acceleration = toBullet(proxy.acceleration);
-        t.angularAcceleration = toBullet(proxy.angularAcceleration);
-        // Without it a crate that stands on the ground would fall through every tick's substeps and be put
-        // back. Under what lies on it calmly it stands like a rock, for Bullet holds it again after the tick.
-        for (const bullet::Reaction& held : reactions) {
-          if (held.body != object) continue;
-          proxy.acceleration += toEigen(held.linear);
-          proxy.angularAcceleration += toEigen(held.angular);
-        }
-        if (isHeld(*object) && speedOn(*object, *body) < kCalmSpeed) {
-          t.held = true;
-          proxy.inverseMass = 0;
-          proxy.mobility.reset();
-          proxy.kinematic = true;
-          proxy.velocity.setZero();
-          proxy.spin.setZero();
-        }
-      }
-      touched.push_back(t);
-      proxies.push_back(std::move(proxy));
-    }
+    for (btCollisionObject* object : near)
+      if (!upcastElements(object) && !isTouched(*object))
+        addProxy(*object, body, rides && base.is(*object), dt, boxes);
     near.clear();
   }
+  gatherSupports(dt, boxes);
   coupleLinks();
   spareFiltered();
   bearAnchored();
+}
+
+bool Destruction::Impl::isTouched(const btCollisionObject& object) const {
+  return std::ranges::any_of(touched, [&](const bullet::TouchedBody& t) { return t.object == &object; });
+}
+
+// `beside`: a body that it is near, or null. Without a shape that touches it comes along only where it
+// `bears`.
+void Destruction::Impl::addProxy(btCollisionObject& object, const DestructibleBody* beside, bool bears,
+                                 double dt, std::span<const Eigen::AlignedBox3d> boxes) {
+  edem::RigidProxy proxy = proxyMaker.make(object, boxes);
+  auto* link = btMultiBodyLinkCollider::upcast(&object);
+  if (link) bullet::take(*link, dt, proxy);
+  if (proxy.parts.empty() && !bears) return;
+  bullet::TouchedBody t;
+  t.object = &object;
+  if (proxy.isDynamic()) {
+    t.rigid = btRigidBody::upcast(&object);
+    proxy.placed = t.rigid && wasPlaced(object);
+    if (t.rigid) proxy.rounding = roundingOf(proxy);
+    t.link = link;
+    t.velocity = toBullet(proxy.velocity);
+    t.spin = toBullet(proxy.spin);
+    t.acceleration = toBullet(proxy.acceleration);
+    t.angularAcceleration = toBullet(proxy.angularAcceleration);
+    // Without it a crate that stands on the ground would fall through every tick's substeps and be put
+    // back. Under what lies on it calmly it stands like a rock, for Bullet holds it again after the tick.
+    for (const bullet::Reaction& held : reactions) {
+      if (held.body != &object) continue;
+      proxy.acceleration += toEigen(held.linear);
+      proxy.angularAcceleration += toEigen(held.angular);
+    }
+    if (beside && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
+      t.held = true;
+      proxy.inverseMass = 0;
+      proxy.mobility.reset();
+      proxy.kinematic = true;
+      proxy.velocity.setZero();
+      proxy.spin.setZero();
+    }
+  }
+  touched.push_back(t);
+  proxies.push_back(std::move(proxy));
 }
 
 // The copies of all bodies' neighbours are one list: what one body touches another may have to let through.
@@ -143,6 +153,11 @@ void Destruction::Impl::giveBodies(double dt, std::span<const edem::RigidProxy> 
       change = locked->topLeftCorner<3, 3>() * proxies[p].impulse;
       t.deltaSpin = toBullet(Eigen::Vector3d(locked->bottomRightCorner<3, 3>() * proxies[p].angularImpulse));
     }
+    // What Bullet's contacts did in the substeps is theirs: Bullet finds it done.
+    t.supported = toBullet(Eigen::Vector3d(double(t.rigid->getInvMass()) * proxies[p].supportImpulse));
+    t.supportedSpin = t.rigid->getInvInertiaTensorWorld() * toBullet(proxies[p].supportAngularImpulse);
+    change += toEigen(t.supported);
+    t.deltaSpin += t.supportedSpin;
     t.deltaVelocity = toBullet(change);
     const Eigen::Vector3d turning = s.spin + dt * s.angularAcceleration, own = proxies[p].spin;
     if (!s.mobility && proxies[p].isPressed() && isUneven(s) &&
@@ -154,7 +169,8 @@ void Destruction::Impl::giveBodies(double dt, std::span<const edem::RigidProxy> 
         begin, toBullet(Eigen::Vector3d(s.velocity + dt * s.acceleration + change)),
         toBullet(Eigen::Vector3d(s.spin + dt * s.angularAcceleration)) + t.deltaSpin, btScalar(dt),
         t.freeEnd);
-    if (proxies[p].isPressed() && !t.rigid->isActive()) t.rigid->activate();
+    const bool isPushed = proxies[p].isPressed() || !proxies[p].supportImpulse.isZero(0);
+    if (isPushed && !t.rigid->isActive()) t.rigid->activate();
   }
 }
 

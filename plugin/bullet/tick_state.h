@@ -20,9 +20,11 @@ struct TouchedBody {
   btRigidBody* rigid = nullptr;             ///< null unless dynamic
   btMultiBodyLinkCollider* link = nullptr;  ///< null unless that, and its joints let it move
   btVector3 deltaVelocity{0, 0, 0}, deltaSpin{0, 0, 0};
-  bool given = false;                                             ///< Bullet's solver has taken it
-  bool held = false;                                              ///< stood still through the substeps
-  btVector3 velocity{0, 0, 0}, spin{0, 0, 0};                     ///< before the tick
+  btVector3 supported{0, 0, 0},
+      supportedSpin{0, 0, 0};                  ///< of them, by Bullet's own contacts in the substeps
+  bool given = false;                          ///< Bullet's solver has taken it
+  bool held = false;                           ///< stood still through the substeps
+  btVector3 velocity{0, 0, 0}, spin{0, 0, 0};  ///< before the tick
   btVector3 acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};  ///< by gravity and the application
   /// Where the body would be at the end of the tick under its impulse as a whole.
   btTransform freeEnd = btTransform::getIdentity();

@@ -96,6 +96,10 @@ struct Destruction::Impl {
   void logRefusedRest(std::uint32_t id, const std::string& name) const;
   void logPrestress(std::uint32_t id, const std::string& name, const DestructibleBodyDef& bodyDef) const;
   void gatherProxies(double dt);
+  bool isTouched(const btCollisionObject& object) const;
+  void addProxy(btCollisionObject& object, const DestructibleBody* beside, bool bears, double dt,
+                std::span<const Eigen::AlignedBox3d> boxes);
+  void gatherSupports(double dt, std::span<const Eigen::AlignedBox3d> boxes);
   void spareFiltered();
   void bearAnchored();
   /// Tells the anchors where the bodies that they hold to will be.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "edem/supports.h"
+
 namespace rubble::edem {
 namespace {
 
@@ -30,6 +32,25 @@ void keepPlace(RigidProxy& proxy, const RigidPose& left, double light) {
   if (!(proxy.inverseMass * light > 1)) return;
   if ((proxy.position - left.position).cwiseAbs().maxCoeff() <= double(proxy.rounding))
     proxy.position = left.position;
+}
+
+// What the elements and the contacts' springs get is what the rigid body does, by its own motion: a body that
+// does not move gives nothing. In half of a kick.
+HalfWork workOf(const RigidState& state, double kick, const RigidProxy& proxy) {
+  const auto power = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+    return 0.5 * kick * (force.dot(proxy.velocity) + torque.dot(proxy.spin));
+  };
+  return {-power(state.force, state.torque), -power(state.anchorForce, state.anchorTorque),
+          power(state.dampingForce, state.dampingTorque)};
+}
+
+void movePlace(RigidProxy& proxy, double step) {
+  proxy.position += step * proxy.velocity;
+  const double angle = proxy.spin.norm() * step;
+  if (angle > 0)
+    proxy.orientation =
+        (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
+            .normalized();
 }
 
 }  // namespace
@@ -83,6 +104,8 @@ void takeProxies(std::span<RigidProxy> proxies, std::span<RigidState> before, do
       state.surplusNext = last->surplusNext;
       if (!state.leapt) state.corners = std::move(last->corners);
     }
+    proxy.supportImpulse.setZero();
+    proxy.supportAngularImpulse.setZero();
     proxy.impulse.setZero();
     proxy.angularImpulse.setZero();
     proxy.contactPoint.setZero();
@@ -97,18 +120,11 @@ void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, do
                  Books& books) {
   for (std::size_t p = 0; p < proxies.size(); ++p) {
     RigidProxy& proxy = proxies[p];
-    const RigidState& state = states[p];
+    RigidState& state = states[p];
     proxy.impulse += kick * state.force;
     proxy.angularImpulse += kick * state.torque;
-    // What the elements and the contacts' springs get is what the rigid body does, by its own motion: a body
-    // that does not move gives nothing.
-    const auto power = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
-      return 0.5 * kick * (force.dot(proxy.velocity) + torque.dot(proxy.spin));
-    };
     proxy.anchorImpulse += kick * state.anchorForce;
-    const double given = -power(state.force, state.torque),
-                 byAnchors = -power(state.anchorForce, state.anchorTorque),
-                 lost = power(state.dampingForce, state.dampingTorque);
+    state.halfWork = workOf(state, kick, proxy);
     books.bullet.linear -= kick * state.force;
     books.bullet.angular -= kick * ((proxy.position - books.centre).cross(state.force) + state.torque);
     books.bullet.size += kick * (state.size + state.anchorForce.norm());
@@ -124,20 +140,20 @@ void moveProxies(std::span<RigidProxy> proxies, std::span<RigidState> states, do
       proxy.velocity += kick * (change.linear + proxy.acceleration);
       proxy.spin += kick * (change.angular + proxy.angularAcceleration);
     }
-    const double givenNext = -power(state.force, state.torque);
-    books.bullet.work.add(given, givenNext);
-    proxy.given += given + givenNext;
-    proxy.givenNext = givenNext;
-    proxy.surplus -= given - byAnchors;
-    states[p].surplusNext -= givenNext + power(state.anchorForce, state.anchorTorque);
-    books.dissipated.add(lost, power(state.dampingForce, state.dampingTorque));
-    proxy.position += step * proxy.velocity;
-    const double angle = proxy.spin.norm() * step;
-    if (angle > 0)
-      proxy.orientation =
-          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, proxy.spin.normalized())) * proxy.orientation)
-              .normalized();
-    states[p].left = poseOf(proxy);
+  }
+  holdProxies(proxies, step);
+  for (std::size_t p = 0; p < proxies.size(); ++p) {
+    RigidProxy& proxy = proxies[p];
+    RigidState& state = states[p];
+    const HalfWork first = state.halfWork, second = workOf(state, kick, proxy);
+    books.bullet.work.add(first.given, second.given);
+    proxy.given += first.given + second.given;
+    proxy.givenNext = second.given;
+    proxy.surplus -= first.given - first.byAnchors;
+    state.surplusNext -= second.given - second.byAnchors;
+    books.dissipated.add(first.lost, second.lost);
+    movePlace(proxy, step);
+    state.left = poseOf(proxy);
   }
 }
 

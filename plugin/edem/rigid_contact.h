@@ -71,6 +71,13 @@ struct RigidPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
+/// Work of a rigid body in half of a substep, by its own motion [J].
+struct HalfWork {
+  double given = 0;      ///< to elements and to contacts' springs
+  double byAnchors = 0;  ///< of that
+  double lost = 0;       ///< less than 0
+};
+
 /// What the contacts of one rigid body have in common.
 struct RigidState {
   std::uint64_t key = 0;
@@ -89,6 +96,7 @@ struct RigidState {
   bool struck = false;     ///< it came fast enough for a blow when the substep was chosen
   Eigen::Vector3d listedPosition = Eigen::Vector3d::Zero();
   Eigen::Quaterniond listedOrientation = Eigen::Quaterniond::Identity();
+  HalfWork halfWork;                     ///< up to this instant, by the velocity before it
   double surplusNext = 0;                ///< second half step of RigidProxy::surplus [J]
   double mobility = 0;                   ///< sum over contacts of speed / impulse [1/kg]
   double rate = 0;                       ///< the same, times the stiffness of each [1/s^2]

@@ -11,6 +11,18 @@
 
 namespace rubble::edem {
 
+/// A point where a contact of the host's keeps a rigid body from something that is none of the elements.
+struct Support {
+  static constexpr std::uint32_t kImmovable = 0xffffffffu;
+  std::uint32_t other = kImmovable;  ///< place of the other in the list of proxies
+  /// From the centre of mass of each, world axes, as the tick began [m].
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), atOther = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  ///< unit, towards the body that has it
+  double gap = 0;                                     ///< less than 0: they are in each other [m]
+  double friction = 0;
+  double pushed = 0;  ///< in this substep [N s]
+};
+
 struct RigidProxy {
   // Given by the host before a tick.
   /// Names the body from tick to tick, for what its contacts remember. Not 0; never used again for another.
@@ -46,9 +58,13 @@ struct RigidProxy {
 
   std::vector<std::uint32_t> bears;  ///< bodies whose anchors hold to it (ids): it touches only what is free
 
+  std::vector<Support> supports;  ///< of light bodies alone, each contact at one of its two
+
   // Collected by the substeps.
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();         ///< on the rigid body [N s]
-  Eigen::Vector3d angularImpulse = Eigen::Vector3d::Zero();  ///< about its centre of mass [N m s]
+  Eigen::Vector3d supportImpulse = Eigen::Vector3d::Zero();         ///< of supports on the rigid body [N s]
+  Eigen::Vector3d supportAngularImpulse = Eigen::Vector3d::Zero();  ///< about its centre [N m s]
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();                ///< on the rigid body [N s]
+  Eigen::Vector3d angularImpulse = Eigen::Vector3d::Zero();         ///< about its centre of mass [N m s]
   Eigen::Vector3d contactPoint = Eigen::Vector3d::Zero();  ///< impulse-weighted sum of contact points [N s m]
   double contactWeight = 0;                                ///< sum of the sizes of the contact impulses [N s]
   std::vector<std::uint32_t> touched;                      ///< bodies that it pressed in this tick (ids)
