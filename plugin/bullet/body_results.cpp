@@ -123,18 +123,27 @@ void Destruction::Impl::noteReactions(double dt) {
     }
     const bool rests = t.velocity.length() <= quiet && velocity.length() <= quiet;
     if (!rests && !ridden) continue;
+    // Supports are Bullet's, too.
     const btVector3 byElements = t.deltaVelocity - t.supported,
                     spinByElements = t.deltaSpin - t.supportedSpin;
-    bullet::Reaction now{t.object, rate * (velocity - t.velocity - byElements) - t.acceleration,
-                         rate * (spin - t.spin - spinByElements) - t.angularAcceleration, rests};
+    bullet::Reaction now;
+    now.body = t.object;
+    now.rests = rests;
+    now.linear = rate * (velocity - t.velocity - byElements) - t.acceleration;
+    now.angular = rate * (spin - t.spin - spinByElements) - t.angularAcceleration;
+    now.supported = rate * t.supported;
+    now.supportedAngular = rate * t.supportedSpin;
     if (!rests) {  // no more than bears it: a blow is over in the next tick
       now.linear = atMost(now.linear, t.acceleration + rate * byElements);
       now.angular = atMost(now.angular, t.angularAcceleration + rate * spinByElements);
     }
     for (const bullet::Reaction& last : before) {
       if (last.body != now.body) continue;
-      now.linear = last.linear + kTrust * (now.linear - last.linear);
-      now.angular = last.angular + kTrust * (now.angular - last.angular);
+      const auto settle = [](const btVector3& from, btVector3& to) { to = from + kTrust * (to - from); };
+      settle(last.linear, now.linear);
+      settle(last.angular, now.angular);
+      settle(last.supported, now.supported);
+      settle(last.supportedAngular, now.supportedAngular);
     }
     reactions.push_back(now);
   }

@@ -102,8 +102,8 @@ void Destruction::Impl::addProxy(btCollisionObject& object, const DestructibleBo
     // back. Under what lies on it calmly it stands like a rock, for Bullet holds it again after the tick.
     for (const bullet::Reaction& held : reactions) {
       if (held.body != &object) continue;
-      proxy.acceleration += toEigen(held.linear);
-      proxy.angularAcceleration += toEigen(held.angular);
+      proxy.acceleration += toEigen(held.linear - held.supported);
+      proxy.angularAcceleration += toEigen(held.angular - held.supportedAngular);
     }
     if (beside && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
       t.held = true;

@@ -31,6 +31,36 @@ edem::Support supportAt(const btManifoldPoint& point, bool second, const btColli
   return s;
 }
 
+// Corners of boxes and hulls, frame of the body; none where another part is without.
+std::vector<Eigen::Vector3d> cornersOf(const edem::RigidProxy& proxy) {
+  std::vector<Eigen::Vector3d> corners;
+  for (const edem::Collider& part : proxy.parts) {
+    if (part.kind == edem::Collider::Kind::Hull) {
+      for (const Eigen::Vector3d& at : part.hull->corners) corners.push_back(part.place * at);
+    } else if (part.kind == edem::Collider::Kind::Box) {
+      for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Vector3d sides(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        corners.push_back(part.place * part.size.cwiseProduct(sides));
+      }
+    } else {
+      return {};
+    }
+  }
+  return corners;
+}
+
+// Bullet gives one point of a body and a plane in a tick, about which it would tip over.
+void addCorners(const btPersistentManifold& manifold, const edem::Support& first, edem::RigidProxy& proxy) {
+  const auto threshold = double(manifold.getContactBreakingThreshold());
+  const double above = first.normal.dot(first.at) - first.gap;  // the plane's, from the centre
+  for (const Eigen::Vector3d& corner : cornersOf(proxy)) {
+    edem::Support s = first;
+    s.at = proxy.orientation * corner;
+    s.gap = first.normal.dot(s.at) - above;
+    if (s.gap < threshold) proxy.supports.push_back(s);
+  }
+}
+
 bool isSolvedByBullet(const btPersistentManifold& manifold) {
   const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
   return manifold.getNumContacts() > 0 && a.hasContactResponse() && b.hasContactResponse() &&
@@ -88,8 +118,13 @@ void Destruction::Impl::gatherSupports(double dt, std::span<const Eigen::Aligned
     const auto own = placeOf.find(a), other = placeOf.find(b);
     if (own == placeOf.end() || (other == placeOf.end() && !isFirm(*b))) continue;
     const std::uint32_t place = other == placeOf.end() ? edem::Support::kImmovable : other->second;
+    edem::RigidProxy& proxy = proxies[own->second];
+    const std::size_t before = proxy.supports.size();
+    if (b->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE)
+      addCorners(*manifold, supportAt(manifold->getContactPoint(0), second, *a, *b, place), proxy);
+    if (proxy.supports.size() > before) continue;
     for (int i = 0; i < manifold->getNumContacts(); ++i)
-      proxies[own->second].supports.push_back(supportAt(manifold->getContactPoint(i), second, *a, *b, place));
+      proxy.supports.push_back(supportAt(manifold->getContactPoint(i), second, *a, *b, place));
   }
 }
 

@@ -40,6 +40,8 @@ struct LeftPlace {
 struct Reaction {
   const btCollisionObject* body = nullptr;  ///< compared only
   btVector3 linear{0, 0, 0}, angular{0, 0, 0};
+  /// Of them, what its contacts did within the substeps and will do again.
+  btVector3 supported{0, 0, 0}, supportedAngular{0, 0, 0};
   bool rests = true;  ///< else it moves, and anchors ride on it
 };
 

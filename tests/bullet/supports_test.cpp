@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <vector>
 
 #include "bullet/bullet_world.h"
 #include "rubble/destructible_body.h"
@@ -54,6 +56,26 @@ TEST(LightBody, OnOthersPassesTheBlowOnToTheGround) {
   }
   EXPECT_GT(lowest, btScalar(0.1 - 0.02));
   EXPECT_GT(crates[3]->getWorldTransform().getOrigin().y(), btScalar(0.7 - 0.08));
+}
+
+// Bullet gives a box and a plane one point in a tick, about which four of them tipped into the ground by 6
+// cm.
+TEST(LightBody, OnAPlaneStaysFlatUnderABlockAndAllComesToRest) {
+  BulletWorld w;
+  btBoxShape crateShape({btScalar(0.1), btScalar(0.1), btScalar(0.1)});
+  std::vector<const btRigidBody*> crates;
+  for (const double x : {-0.1, 0.1})
+    for (const double z : {-0.1, 0.1})
+      crates.push_back(w.add(1, crateShape, {btScalar(x), btScalar(0.1), btScalar(z)}));
+  DestructibleBodyDef def = slabAt({btScalar(0.03), btScalar(0.21), btScalar(-0.15)}, {0, -1, 0});
+  def.asset = std::make_shared<const Asset>(gridAsset({.cubes = {2, 2, 2}, .edge = 0.2, .anchored = false}));
+  const DestructibleBody* block = w.destruction->addBody(def);
+  for (int tick = 0; tick < 240 && !(block->isAsleep() && tick > 60); ++tick) {
+    w.world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
+    for (const btRigidBody* crate : crates)
+      EXPECT_NEAR(double(crate->getWorldTransform().getOrigin().y()), 0.1, 2e-3) << "tick " << tick;
+  }
+  EXPECT_TRUE(block->isAsleep());
 }
 
 }  // namespace
