@@ -397,8 +397,10 @@ double RigidContacts<Real>::blowFrequency2(Bodies bodies, std::span<const Drift>
 
 template <class Real>
 bool RigidContacts<Real>::blowGrew() const {
-  return std::any_of(m_states.begin(), m_states.end(),
-                     [&](const RigidState& s) { return s.struck && s.pressedRate > m_blow2; });
+  // Never as if more than all pressed: then it would be asked anew in every substep.
+  return std::any_of(m_states.begin(), m_states.end(), [&](const RigidState& s) {
+    return s.struck && std::min(s.pressedRate, s.rates.stiffness) > m_blow2;
+  });
 }
 
 template <class Real>
