@@ -105,7 +105,10 @@ void Destruction::Impl::addProxy(btCollisionObject& object, const DestructibleBo
       proxy.acceleration += toEigen(held.linear - held.supported);
       proxy.angularAcceleration += toEigen(held.angular - held.supportedAngular);
     }
-    if (beside && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
+    // What is light has supports: as a rock it would get in one tick what presses it in a blow.
+    const bool isRock =
+        beside && !(proxy.inverseMass * std::ranges::min(solver->view(beside->id()).mass) > 1);
+    if (isRock && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
       t.held = true;
       proxy.inverseMass = 0;
       proxy.mobility.reset();
