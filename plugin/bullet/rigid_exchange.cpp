@@ -106,9 +106,9 @@ void Destruction::Impl::addProxy(btCollisionObject& object, const DestructibleBo
       proxy.angularAcceleration += toEigen(held.angular - held.supportedAngular);
     }
     // What is light has supports: as a rock it would get in one tick what presses it in a blow.
-    const bool isRock =
+    const bool mayBeRock =
         beside && !(proxy.inverseMass * std::ranges::min(solver->view(beside->id()).mass) > 1);
-    if (isRock && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
+    if (mayBeRock && isHeld(object) && speedOn(object, *beside) < kCalmSpeed) {
       t.held = true;
       proxy.inverseMass = 0;
       proxy.mobility.reset();
